@@ -31,6 +31,9 @@ pub struct Chapter {
     /// The arguments of its golden picture, the size apart.
     #[serde(default, skip_serializing)]
     pub golden: Vec<String>,
+    /// The size of its golden picture, where that is another than most chapters'.
+    #[serde(default, skip_serializing)]
+    pub golden_size: Option<String>,
     /// The effects that it adds to chapter 25's table, by name.
     #[serde(default)]
     pub effects: Vec<String>,
@@ -50,6 +53,11 @@ impl Chapter {
     /// Number and title, such as `02 · Basic`.
     pub fn heading(&self) -> String {
         format!("{} · {}", self.number(), self.title)
+    }
+
+    /// The size of its golden picture, such as `240x150`.
+    pub fn golden_size(&self) -> &str {
+        self.golden_size.as_deref().unwrap_or("240x150")
     }
 
     /// Its page.

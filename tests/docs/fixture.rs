@@ -153,7 +153,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Everything but what is copied from the real project.
-const FILES: [(&str, &str); 15] = [
+const FILES: [(&str, &str); 16] = [
     (
         "Cargo.toml",
         r#"[package]
@@ -355,7 +355,8 @@ Minutes: 10
 "#,
     ),
     ("docs/chapters/main.rs", "fn main() {}\n"),
-    ("tests/samples/main.rs", "mod basic;\nmod one;\n"),
+    ("tests/samples/main.rs", "mod basic;\nmod golden;\nmod one;\n"),
+    ("tests/samples/golden.rs", "golden! {\n    basic,\n    one,\n}\n"),
     ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n"),
     ("tests/samples/basic.rs", "const GOLDEN: &str = \"02_basic\";\n\n#[test]\nfn first() {}\n"),
 ];

@@ -27,6 +27,8 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
     let main = fixture.read("samples/07_soft_light/main.rs");
     assert!(main.starts_with("//! 07 · Soft light: "), "{main}");
     assert!(fixture.read("tests/samples/main.rs").contains("mod soft_light;\n"));
+    let golden = fixture.read("tests/samples/golden.rs");
+    assert_eq!(golden, "golden! {\n    basic,\n    one,\n    soft_light,\n}\n");
     let exercise = fixture.read("docs/exercises/07.1.diff");
     assert!(exercise.contains("Expect: same as 02_basic\n"), "{exercise}");
     assert!(fixture.read("docs/07_soft_light.md").contains("<!-- exercises 07_soft_light -->\n"));

@@ -3,14 +3,13 @@
 use common::app::Picture;
 use serde_json::Value;
 
-use run::{bits, command, expected, golden, refused, render};
+use run::{Chapter, bits, command, expected, golden, refused, render, set_arguments};
 
 const NAME: &str = "24_accuracy";
 const SIZE: &str = "96x60";
 
 fn look(sets: &[&str]) -> (Picture, Value) {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    let run = render(NAME, SIZE, &arguments);
+    let run = Chapter::new(NAME).size(SIZE).sets(sets).run();
     (run.picture, run.report["chapter"][0].clone())
 }
 
@@ -99,7 +98,7 @@ fn a_rung_of_another_ladder_is_refused() {
 fn the_order_of_settings_does_not_matter() {
     let [a, b, c] = ["primitive=capsule", "rung=two-float", "distance=50"];
     for order in [[a, b, c], [a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
-        let sets = order.iter().flat_map(|set| ["--set", set]);
+        let sets = set_arguments(&order);
         let output = command(NAME).arg("--list-controls").args(sets).output().unwrap();
         let list = String::from_utf8_lossy(&output.stdout);
         for set in order {

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-pub use chapter::Chapter;
+pub use chapter::{Chapter, set_arguments};
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, Requirements};
 pub use device;

@@ -1,6 +1,6 @@
 //! A picture in many bands of rows is the picture in few, to the bit.
 
-use run::{bits, render};
+use run::{Chapter, bits};
 
 /// A chapter, and its settings.
 type Choice = (&'static str, &'static [&'static str]);
@@ -45,9 +45,8 @@ fn hold(choices: &[Choice]) {
     // What a first frame costs is not known before: its first band is one row. The second frame is its like,
     // and so small that on any but the busiest machine it is one band.
     for &(name, sets) in choices.iter().filter(|(name, _)| run::is_offered(name)) {
-        let sets = sets.iter().flat_map(|set| ["--set", set]).collect::<Vec<_>>();
-        let [many, few] = ["1", "2"]
-            .map(|frames| render(name, "40x24", &[&sets[..], &["--frames", frames]].concat()));
+        let [many, few] =
+            [1, 2].map(|frames| Chapter::new(name).size("40x24").sets(sets).frames(frames).run());
         assert!(many.report["bands"].as_u64() > Some(1), "{name}: {}", many.report["bands"]);
         assert_eq!(bits(&many.picture), bits(&few.picture), "{name}");
     }

@@ -2,29 +2,21 @@
 
 mod patterns;
 
-use common::app::Picture;
 use common::scene::Scene;
 
-use run::{compiled_for, expected, golden, render, same_colors};
+use run::{Chapter, compiled_for, expected, same_colors};
 use serde_json::Map;
 
 const NAME: &str = "13_callable_shader";
 
-fn picture(size: &str, sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, size, &arguments).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture("240x150", &[]), 0.002);
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 #[test]
 fn every_way_to_choose_gives_the_same_bits() {
     for light in ["light=directional", "light=point"] {
-        let by_callables = picture("120x75", &[light]);
+        let by_callables = chapter("120x75").sets(&[light]).picture();
         for (choose, stage) in [
             ("callable", "closest hit"),
             ("switch", "raygen"),
@@ -32,7 +24,7 @@ fn every_way_to_choose_gives_the_same_bits() {
             ("hit group", "raygen"),
         ] {
             let sets = [format!("choose by={choose}"), format!("called from={stage}")];
-            let other = picture("120x75", &[light, &sets[0], &sets[1]]);
+            let other = chapter("120x75").sets(&[light, &sets[0], &sets[1]]).picture();
             let what = format!("{light}: {choose} from {stage}");
             same_colors(&what, NAME, &by_callables, &other);
         }
@@ -45,8 +37,8 @@ fn patterns_have_the_same_bits_on_the_host_near_and_far() {
     let mut seen = [0; 3];
     for far in [0, 1, 1000, 1 << 24] {
         let far_control = format!("far={far}");
-        let places = picture("240x150", &["show=object position"]);
-        let weights = picture("240x150", &["show=pattern", &far_control]);
+        let places = chapter("240x150").sets(&["show=object position"]).picture();
+        let weights = chapter("240x150").sets(&["show=pattern", &far_control]).picture();
         for (&[x, y, z, material], &[weight, ..]) in places.pixels.iter().zip(&weights.pixels) {
             if material < 0.0 {
                 continue;

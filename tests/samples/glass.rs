@@ -7,17 +7,14 @@ pub mod equations;
 use common::app::Picture;
 use serde_json::{Map, json};
 
-use run::{bits, compiled_for, expected, flip, golden, render};
+use run::{Chapter, bits, compiled_for, expected, flip, golden};
 
 const NAME: &str = "27_glass";
 /// The relative error of one rounding to f32.
 const U: f64 = 1.0 / 16_777_216.0;
 
-fn picture(size: &str, frames: u32, sets: &[&str]) -> Picture {
-    let frames = frames.to_string();
-    let mut arguments = vec!["--frames", &frames];
-    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
-    render(NAME, size, &arguments).picture
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 /// The mean of all colours of all pixels.
@@ -33,13 +30,13 @@ fn tolerance(own: &Picture, frames: u32, sets: &[&str]) -> f32 {
     }
     // Where another driver rounds otherwise, one path of a hundred goes elsewhere at each of some twenty walls
     // of glass, and is then as far from its own way as with other random numbers (`worst.rs`).
-    let drawn_anew = picture("160x100", frames, &[sets, &["seed=1"]].concat());
+    let drawn_anew = chapter("160x100").frames(frames).sets(sets).sets(&["seed=1"]).picture();
     0.01 * 20.0 * flip(own, &drawn_anew).0
 }
 
 #[test]
 fn the_picture_is_the_golden_one_and_repeats() {
-    let [first, second] = [0, 1].map(|_| picture("160x100", 8, &[]));
+    let [first, second] = [0, 1].map(|_| chapter("160x100").frames(8).picture());
     assert_eq!(bits(&first), bits(&second));
     golden(NAME, &first, tolerance(&first, 8, &[]));
 }
@@ -47,7 +44,7 @@ fn the_picture_is_the_golden_one_and_repeats() {
 #[test]
 fn the_pane_is_the_golden_one() {
     // Its upper edge lies before the sky, and below it the sky is mirrored.
-    let pane = picture("160x100", 64, &["scene=pane"]);
+    let pane = chapter("160x100").frames(64).sets(&["scene=pane"]).picture();
     golden("27_glass_pane", &pane, tolerance(&pane, 64, &["scene=pane"]));
 }
 
@@ -57,7 +54,10 @@ fn clear_glass_cannot_be_seen_in_a_white_sky() {
     let mut lost = [0.0; 2];
     for (i, (eye, target)) in [("0,0,5", "0,0,0"), ("0.3,0.1,-1.2", "0,0,0")].iter().enumerate() {
         let (eye, target) = (format!("camera eye={eye}"), format!("camera target={target}"));
-        let shown = picture("96x60", 4, &["scene=furnace", "depth=256", &eye, &target]);
+        let shown = chapter("96x60")
+            .frames(4)
+            .sets(&["scene=furnace", "depth=256", &eye, &target])
+            .picture();
         // Each path brings 1, whatever ways it takes, or it is caught and brings nothing.
         for [r, g, b, _] in &shown.pixels {
             let paths = 4.0 * f64::from(*r);
@@ -75,7 +75,7 @@ fn clear_glass_cannot_be_seen_in_a_white_sky() {
 
 #[test]
 fn a_depth_only_takes_light_away() {
-    let of = |depth: &str| picture("48x30", 4, &["scene=furnace", depth]);
+    let of = |depth: &str| chapter("48x30").frames(4).sets(&["scene=furnace", depth]).picture();
     let shown = ["depth=1", "depth=2", "depth=4", "depth=16", "depth=256"].map(of);
     for pair in shown.windows(2) {
         let mut values = pair[0].pixels.iter().flatten().zip(pair[1].pixels.iter().flatten());
@@ -88,7 +88,7 @@ fn a_depth_only_takes_light_away() {
 #[test]
 #[ignore = "nightly: gives a table of the page; quick: glass::a_depth_only_takes_light_away"]
 fn what_depth_leaves_out() {
-    let of = |set: &str| mean(&picture("96x60", 16, &["clamp=20", set]));
+    let of = |set: &str| mean(&chapter("96x60").frames(16).sets(&["clamp=20", set]).picture());
     let all = of("depth=128");
     let mut table = Map::new();
     let mut last = 1.0;
@@ -113,7 +113,7 @@ fn a_clamp_takes_fireflies_and_light() {
     let mut table = Map::new();
     let mut last = (f32::INFINITY, f64::INFINITY);
     for clamp in [0, 20, 6, 2] {
-        let shown = picture("96x60", 16, &[&format!("clamp={clamp}")]);
+        let shown = chapter("96x60").frames(16).set("clamp", clamp).picture();
         let values = shown.pixels.iter().flat_map(|pixel| pixel[..3].iter().copied());
         let (brightest, light) = (values.fold(0.0, f32::max), mean(&shown));
         println!("clamp {clamp}: brightest {brightest}, mean {light}");
@@ -127,7 +127,7 @@ fn a_clamp_takes_fireflies_and_light() {
 
 #[test]
 fn a_drink_that_overlaps_its_glass_differs_from_one_apart() {
-    let of = |scene: &str| picture("96x60", 8, &[&format!("scene={scene}")]);
+    let of = |scene: &str| chapter("96x60").frames(8).set("scene", scene).picture();
     let [over, apart] = ["drink", "drink apart"].map(of);
     let differ = over.pixels.iter().zip(&apart.pixels).filter(|(a, b)| a != b).count();
     // The drink fills a twentieth of the picture at least.

@@ -20,14 +20,13 @@ mod scenes;
 #[path = "../../samples/21_heightfield/shape.rs"]
 mod shape;
 
-use common::app::Picture;
 use glam::DVec3;
 use ground::Landscape;
 use judged::{Exact, Verdict};
 use marched::{Alone, March, Marched, RUNGS};
 
 use run::plot::{Shown, draw_panels};
-use run::{expected, golden, render};
+use run::{Chapter, expected};
 use serde_json::{Map, json};
 
 const NAME: &str = "21_heightfield";
@@ -38,15 +37,8 @@ const HILLS: Landscape = Landscape { k: 1.0, rings: 6 };
 const STEEP: Landscape = Landscape { k: 14.0, rings: 3 };
 const FLAT: Landscape = Landscape { k: 0.0, rings: 25 };
 
-fn shown(size: &str, sets: &[&str], more: &[&str]) -> Picture {
-    let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    render(NAME, size, &sets.chain(more.iter().copied()).collect::<Vec<_>>()).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &shown("240x150", &[], &[]), 0.002);
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 /// The presets, in the order of the page's table.
@@ -289,7 +281,7 @@ fn normals_are_those_of_the_height_function() {
 fn what_is_traced_is_what_is_marched() {
     for rung in ["relaxed", "bisected"] {
         let rung = format!("rung={rung}");
-        let show = |view| shown("120x75", &[&rung, view], &[]);
+        let show = |view| chapter("120x75").sets(&[&rung]).sets(&[view]).picture();
         let (hits, marched) = (show("show=hit"), show("show=march"));
         let mut ground = 0;
         for (hit, marched) in hits.pixels.iter().zip(&marched.pixels) {

@@ -15,7 +15,7 @@ use reference::{Ray, Surface};
 use serde_json::{Map, json};
 
 use run::primary_hits::{rays, reference};
-use run::{bits, command, expected, golden, render, render_by, same_colors, shaders_with};
+use run::{Chapter, bits, expected, same_colors, shaders_with};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
@@ -24,13 +24,8 @@ const PLANE: f32 = -2.0;
 /// Bound of one rounding error, relative.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
-fn shown(size: &str, sets: &[&str], more: &[&str]) -> Picture {
-    let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    render(NAME, size, &sets.chain(more.iter().copied()).collect::<Vec<_>>()).picture
-}
-
-fn picture(sets: &[&str]) -> Picture {
-    shown(SIZE, sets, &[])
+fn chapter() -> Chapter {
+    Chapter::new(NAME).size(SIZE)
 }
 
 /// A model of one material that mirrors: an octahedron around `middle`. It loads faster than the pieces.
@@ -63,22 +58,14 @@ impl Octahedron {
     }
 
     fn picture(&self, sets: &[&str]) -> Picture {
-        shown(SIZE, sets, &["--scene", &self.path()])
+        chapter().sets(sets).scene(self.path()).picture()
     }
 
     /// The picture that a sample makes of it by other shaders.
     fn picture_by(&self, shaders: &Path, sample: &str, sets: &[&str]) -> Picture {
-        let sets = sets.iter().flat_map(|&set| ["--set", set]);
-        let path = self.path();
-        let arguments: Vec<&str> = sets.chain(["--scene", &path]).collect();
-        render_by(command(sample).env("SHADERS", shaders), SIZE, &arguments).picture
+        let chapter = Chapter::new(sample).size(SIZE).shaders(shaders);
+        chapter.sets(sets).scene(self.path()).picture()
     }
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &shown("240x150", &[], &[]), 0.002);
 }
 
 /// Something for each rung.
@@ -133,7 +120,7 @@ impl View {
         ];
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
         let show =
-            |view| shown("25x25", &[&sets[..], &[view]].concat(), &["--scene", &model.path()]);
+            |view| chapter().size("25x25").sets(&sets).sets(&[view]).scene(model.path()).picture();
         let (directions, found) = (show("show=ray direction"), show("show=rungs"));
         let camera = Camera::new(self.eye, self.eye + self.direction, 60.0);
         let rays = rays(&camera, &directions).zip(&found.pixels);

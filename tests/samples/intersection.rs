@@ -5,14 +5,13 @@ mod plots;
 mod reference_shapes;
 mod rungs;
 
-use common::app::Picture;
 use common::gpu::ShaderEnum;
 use common::scene::{Camera, Scene, Sun};
 use glam::DVec3;
 use reference::Ray;
 
+use run::Chapter;
 use run::primary_hits::{answer, rays};
-use run::{golden, render};
 
 #[path = "../../samples/08_intersection/random.rs"]
 pub mod random;
@@ -29,15 +28,8 @@ const SIZE: &str = "120x75";
 /// The relative error of one rounding to f32.
 const U: f64 = 1.0 / 16_777_216.0;
 
-fn picture(size: &str, sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, size, &arguments).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture("240x150", &[]), 0.002);
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 /// Holds every seventh ray of a scene with many shapes to the exact nearest hit.
@@ -46,8 +38,8 @@ fn every_hit_agrees(scene: SceneKind, count: u32, sets: &[&str]) {
     let camera = shapes::camera(scene, Camera::default(), count, 0.0);
     let name = format!("scene={}", SceneKind::LAYOUT.words[scene as usize]);
     let sets = [&[name.as_str()], sets].concat();
-    let hits = picture(SIZE, &[&sets[..], &["show=hit"]].concat());
-    let directions = picture(SIZE, &[&sets[..], &["show=ray direction"]].concat());
+    let hits = chapter(SIZE).sets(&sets).sets(&["show=hit"]).picture();
+    let directions = chapter(SIZE).sets(&sets).sets(&["show=ray direction"]).picture();
     let (mut spheres, mut boxes) = (Errors::default(), Errors::default());
     let (mut grazes, mut ties) = (0, 0);
     for (ray, pixel) in rays(&camera, &directions).zip(&hits.pixels).step_by(7) {
@@ -110,7 +102,10 @@ fn every_hit_of_the_random_ball_is_the_reference_s() {
 #[test]
 fn hit_kinds_tell_spheres_boxes_and_triangles() {
     let first = Scene::chess().unwrap().instances.len() as f32;
-    let (hits, kinds) = (picture(SIZE, &["show=hit"]), picture(SIZE, &["show=hit kind"]));
+    let (hits, kinds) = (
+        chapter(SIZE).sets(&["show=hit"]).picture(),
+        chapter(SIZE).sets(&["show=hit kind"]).picture(),
+    );
     let mut counts = [0; 3];
     for (hit, kind) in hits.pixels.iter().zip(&kinds.pixels) {
         let expected = match hit[0] {
@@ -136,7 +131,7 @@ fn attributes_are_those_of_the_nearest_hit() {
     let exact = ReferenceShapes::new(SceneKind::Grid, 1000);
     let camera = shapes::camera(SceneKind::Grid, Camera::default(), 1000, 0.0);
     let [hits, directions, normals] = ["hit", "ray direction", "normal"]
-        .map(|view| picture(SIZE, &["scene=grid", "count=1000", &format!("show={view}")]));
+        .map(|view| chapter(SIZE).sets(&["scene=grid", "count=1000"]).set("show", view).picture());
     let mut checked = 0;
     let pixels = rays(&camera, &directions).zip(&hits.pixels).zip(&normals.pixels);
     for ((ray, hit), &[x, y, z, _]) in pixels {
@@ -160,8 +155,8 @@ fn attributes_are_those_of_the_nearest_hit() {
 fn no_shape_shadows_itself() {
     let exact = ReferenceShapes::new(SceneKind::Grid, 10_000);
     let sets = ["scene=grid", "sun elevation=35", "sun azimuth=75"];
-    let hits = picture(SIZE, &[&sets[..], &["show=hit"]].concat());
-    let origins = picture(SIZE, &[&sets[..], &["show=shadow origin"]].concat());
+    let hits = chapter(SIZE).sets(&sets).sets(&["show=hit"]).picture();
+    let origins = chapter(SIZE).sets(&sets).sets(&["show=shadow origin"]).picture();
     let sun = Sun { azimuth: 75.0, elevation: 35.0, ..Sun::default() };
     let direction = sun.light().direction;
     let (mut lit, mut dark, mut grazes) = (0, 0, 0);
@@ -203,7 +198,7 @@ fn no_shape_shadows_itself() {
 fn dust_has_a_normal_everywhere() {
     for show in ["picture", "normal", "shadow origin"] {
         let show = format!("show={show}");
-        let picture = picture(SIZE, &["scene=dust", &show]);
+        let picture = chapter(SIZE).sets(&["scene=dust", &show]).picture();
         assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()), "{show}");
     }
 }

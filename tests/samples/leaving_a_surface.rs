@@ -11,43 +11,23 @@ use serde_json::{Map, json};
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{
-    command, expected, flat_shaders, golden, render, render_by, replace_line, same_answers,
-    shaders_with,
-};
+use run::{Chapter, expected, flat_shaders, replace_line, same_answers, shaders_with};
 use tempfile::TempDir;
 
 const NAME: &str = "26_leaving_a_surface";
 const SIZE: &str = "120x75";
 
-/// A picture with these controls set.
-fn picture(size: &str, sets: &[&str]) -> Picture {
-    computed("driver", size, sets)
-}
-
-/// The same in an arithmetic.
-fn computed(arithmetic: &str, size: &str, sets: &[&str]) -> Picture {
-    render(NAME, size, &arguments(arithmetic, sets)).picture
-}
-
-fn arguments<'a>(arithmetic: &'a str, sets: &[&'a str]) -> Vec<&'a str> {
-    let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    ["--arithmetic", arithmetic].into_iter().chain(sets).collect()
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture("240x150", &[]), 0.002);
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 #[test]
 fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     let asks = "visible = visibility(hit, start, push.light.direction);";
     let without = shaders_with("26_leaving_a_surface/path.glsl", asks, "");
-    let sets = arguments("driver", &["show=hit", "bounce=1"]);
-    let off = render_by(command(NAME).env("SHADERS", without.path()), SIZE, &sets).picture;
-    same_answers("with and without shadow rays", NAME, &off, &render(NAME, SIZE, &sets).picture);
+    let on = chapter(SIZE).arithmetic("driver").sets(&["show=hit", "bounce=1"]);
+    let off = on.clone().shaders(without.path()).picture();
+    same_answers("with and without shadow rays", NAME, &off, &on.picture());
 }
 
 /// The camera that the tests of rays look through, from above and from low down.
@@ -90,18 +70,15 @@ impl<'a> Setting<'a> {
         let mut scene = Scene::chess().unwrap();
         scene.camera.eye = point(camera[0]);
         let scene = placement.scene(&scene);
-        let show = |view: &str| computed(arithmetic, size, &[&sets[..], &[view]].concat());
+        let show = |view| chapter(size).arithmetic(arithmetic).sets(&sets).sets(&[view]).picture();
         let (directions, hits) = (show("show=ray direction"), show("show=hit"));
         let (exact, camera) = (reference(&scene), scene.camera);
         Self { arithmetic, exact, camera, sets, size, directions, hits, shaders: flat_shaders() }
     }
 
     fn show(&self, rule: &str, sets: &[&str]) -> Picture {
-        let rule = format!("origin={rule}");
-        let sets = [&self.sets[..], &[&rule], sets].concat();
-        let mut sample = command(NAME);
-        sample.env("SHADERS", self.shaders.path());
-        render_by(&mut sample, self.size, &arguments(self.arithmetic, &sets)).picture
+        let chapter = chapter(self.size).shaders(self.shaders.path()).arithmetic(self.arithmetic);
+        chapter.sets(&self.sets).set("origin", rule).sets(sets).picture()
     }
 
     /// Judges the ray number `bounce` of every pixel that starts by this rule, and the shadow ray of

@@ -6,27 +6,19 @@ use glam::Vec3;
 use reference::Ray;
 
 use crate::shadow_rays::{hold_answers, hold_origins, is_on_a_square, picture_by};
-use run::{golden, render, same_colors, shaders_with};
+use run::{Chapter, render, same_colors, shaders_with};
 
 const NAME: &str = "34_lights";
 const SIZE: &str = "240x150";
 
-/// A picture with these controls set.
-fn picture(sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, SIZE, &arguments).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture(&[]), 0.002);
+fn chapter() -> Chapter {
+    Chapter::new(NAME).size(SIZE)
 }
 
 #[test]
 fn the_sun_makes_the_picture_of_05() {
     let sun = render("05_shadow_miss", SIZE, &[]).picture;
-    same_colors("34's sun and 05's", NAME, &picture(&["light=directional"]), &sun);
+    same_colors("34's sun and 05's", NAME, &chapter().sets(&["light=directional"]).picture(), &sun);
 }
 
 fn to_lamp(origin: Vec3) -> Ray {
@@ -48,7 +40,7 @@ fn shadows_are_those_of_the_exact_hit_points() {
 
 #[test]
 fn a_light_below_the_board_lights_nothing() {
-    let below = picture(&["lamp position=0.3,-1,0.2", "show=shadow origin"]);
+    let below = chapter().sets(&["lamp position=0.3,-1,0.2", "show=shadow origin"]).picture();
     let lit = below.pixels.iter().find(|pixel| pixel[3] > 0.0);
     assert!(lit.is_none(), "{lit:?}");
 }
@@ -59,7 +51,7 @@ fn a_shadow_ray_ends_at_the_lamp() {
     let low = ["lamp position=2.5,1.1,1.5", "show=shadow origin"];
     let endless = shaders_with("common/light.glsl", "? 1.0 : 1e30", "? 1e30 : 1e30");
     let endless = picture_by(endless.path(), NAME, &low);
-    let picture = picture(&low);
+    let picture = chapter().sets(&low).picture();
     let lit = |picture: &Picture| picture.pixels.iter().filter(|pixel| pixel[3] == 1.0).count();
     let (ends, goes_on) = (lit(&picture), lit(&endless));
     println!("{ends} lit; {goes_on} where the ray goes on behind the lamp");
@@ -70,9 +62,9 @@ fn a_shadow_ray_ends_at_the_lamp() {
 fn a_lamp_fades_with_the_square_of_the_distance() {
     let lamp = PointLight::default();
     let eye = Scene::chess().unwrap().camera.eye.as_vec3();
-    let lit = picture(&[]);
-    let dark = picture(&["lamp position=0,-1,0"]);
-    let origins = picture(&["show=shadow origin"]);
+    let lit = chapter().picture();
+    let dark = chapter().sets(&["lamp position=0,-1,0"]).picture();
+    let origins = chapter().sets(&["show=shadow origin"]).picture();
     let mut compared = 0;
     for ((lit, dark), origin) in lit.pixels.iter().zip(&dark.pixels).zip(&origins.pixels) {
         let [x, y, z, seen] = *origin;

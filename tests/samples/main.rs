@@ -12,6 +12,7 @@ mod equalities;
 mod far_from_origin;
 mod foundation;
 mod glass;
+mod golden;
 mod heightfield;
 mod infinite_plane;
 mod instancing;

@@ -4,15 +4,14 @@ use common::app::Picture;
 use common::scene::Scene;
 
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{command, expected, golden, refusal, refused, render, shaders_with};
+use run::{Chapter, command, expected, refusal, refused, render, shaders_with};
 use serde_json::json;
 
 const NAME: &str = "30_own_tree";
 const SIZE: &str = "240x150";
 
-fn picture(sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, SIZE, &arguments).picture
+fn chapter() -> Chapter {
+    Chapter::new(NAME).size(SIZE)
 }
 
 /// Number of pixels in which two pictures differ at all.
@@ -21,15 +20,12 @@ fn differing(a: &Picture, b: &Picture) -> usize {
 }
 
 #[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture(&[]), 0.002);
-}
-
-#[test]
 fn every_hit_agrees_with_the_reference() {
     let scene = Scene::chess().unwrap();
-    let (hits, directions) = (picture(&["show=hit"]), picture(&["show=ray direction"]));
+    let (hits, directions) = (
+        chapter().sets(&["show=hit"]).picture(),
+        chapter().sets(&["show=ray direction"]).picture(),
+    );
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
     println!("{tally}");
@@ -45,7 +41,7 @@ fn every_hit_agrees_with_the_reference() {
 fn it_is_the_picture_of_16() {
     run::needs!("16_ray_query");
     let of_16 = render("16_ray_query", SIZE, &[]).picture;
-    let own = picture(&[]);
+    let own = chapter().picture();
     let far = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|k| (a[k] - b[k]).abs() > 1.0 / 255.0);
     let count = of_16.pixels.iter().zip(&own.pixels).filter(|&pair| far(pair)).count();
     println!("{count} pixels differ by more than a step of 8 bits");
@@ -80,9 +76,9 @@ fn what_a_device_built_that_is_not_a_tree_is_refused_in_a_line() {
 /// A tree decides which boxes are looked at, never what is met.
 #[test]
 fn no_tree_and_no_node_changes_the_picture() {
-    let own = picture(&[]);
+    let own = chapter().picture();
     for set in ["tree=binned", "tree=device", "nodes=36 bytes"] {
-        let count = differing(&own, &picture(&[set]));
+        let count = differing(&own, &chapter().sets(&[set]).picture());
         // Two triangles may be met at the same distance: then the first one found counts.
         assert!(count <= own.pixels.len() / 2000, "{set}: {count} pixels differ");
     }
@@ -100,9 +96,9 @@ fn so_do_margins_and_two_floats() {
 }
 
 fn tests_give_nearly_the_same_picture(sets: &[&str]) {
-    let own = picture(&[]);
+    let own = chapter().picture();
     for set in sets {
-        let count = differing(&own, &picture(&[set]));
+        let count = differing(&own, &chapter().sets(&[set]).picture());
         assert!(count <= own.pixels.len() / 50, "{set}: {count} pixels differ");
     }
 }
@@ -111,13 +107,13 @@ fn tests_give_nearly_the_same_picture(sets: &[&str]) {
 #[test]
 fn the_views_show_the_tree() {
     let sky = |picture: &Picture| picture.pixels[0];
-    let [steps, boxes] = ["show=steps", "show=boxes"].map(|set| picture(&[set]));
+    let [steps, boxes] = ["show=steps", "show=boxes"].map(|set| chapter().sets(&[set]).picture());
     assert_ne!(sky(&steps), sky(&boxes));
-    let early = picture(&["show=walk", "walk step=2"]);
-    let late = picture(&["show=walk", "walk step=12"]);
+    let early = chapter().sets(&["show=walk", "walk step=2"]).picture();
+    let late = chapter().sets(&["show=walk", "walk step=12"]).picture();
     let count = differing(&early, &late);
     assert!(count > 200, "later steps draw more boxes: {count} pixels differ");
-    assert_eq!(differing(&late, &picture(&["show=walk", "walk step=12"])), 0);
+    assert_eq!(differing(&late, &chapter().sets(&["show=walk", "walk step=12"]).picture()), 0);
 }
 
 #[test]

@@ -10,19 +10,12 @@ use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3A};
 use serde_json::{Map, Value, json};
 
 use run::primary_hits::{answer, rays};
-use run::{expected, golden, render, same_answers, same_colors};
+use run::{Chapter, expected, render, same_answers, same_colors};
 
 const NAME: &str = "10_position_fetch";
 
 /// A unit in the last place of numbers from 1 to 2.
 const ULP: f64 = f32::EPSILON as f64;
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    run::needs!(NAME);
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &render(NAME, "240x150", &[]).picture, 0.002);
-}
 
 #[test]
 fn both_ways_give_the_same_bits() {
@@ -118,11 +111,8 @@ fn errors(scene: &Scene, camera: &Camera, file: Option<&str>) -> Errors {
         format!("field of view={}", camera.fov_y),
     ];
     let view = |show: &str| -> Picture {
-        let show = format!("show={show}");
-        let mut arguments = vec!["--set", &show];
-        arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
-        arguments.extend(file.into_iter().flat_map(|file| ["--scene", file]));
-        render(NAME, "48x30", &arguments).picture
+        let chapter = Chapter::new(NAME).size("48x30").set("show", show).sets(&sets);
+        file.into_iter().fold(chapter, Chapter::scene).picture()
     };
     let [hits, directions] = ["hit", "ray direction"].map(view);
     let [barycentric, along] = ["hit point", "ray point"].map(view);

@@ -3,27 +3,13 @@
 mod occlusion;
 mod visibility;
 
-use common::app::Picture;
-use run::{Run, bits, flip, golden, refused, render};
+use run::{Chapter, bits, flip, refused, render};
 
 const NAME: &str = "17_ray_query_raster";
 const SIZE: &str = "240x150";
 
-/// A run with these controls set.
-fn run_of(size: &str, sets: &[&str]) -> Run {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, size, &arguments)
-}
-
-fn picture(size: &str, sets: &[&str]) -> Picture {
-    run_of(size, sets).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    run::needs!(NAME);
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture(SIZE, &[]), 0.002);
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 /// Without occlusion it is the picture of 16: what differs is a few pixels at edges.
@@ -32,7 +18,8 @@ fn raster_and_rays_give_the_picture_of_16() {
     run::needs!(NAME);
     let of_16 = render("16_ray_query", SIZE, &[]).picture;
     for primary in ["primary=rays", "primary=raster"] {
-        let (mean, outliers) = flip(&of_16, &picture(SIZE, &["occlusion rays=0", primary]));
+        let (mean, outliers) =
+            flip(&of_16, &chapter(SIZE).sets(&["occlusion rays=0", primary]).picture());
         println!("{primary}: mean FLIP {mean:.6}, {outliers:.6} of the pixels are far off");
         assert!(mean < 0.001 && outliers < 0.002, "{primary}: {mean}, {outliers}");
     }
@@ -46,7 +33,7 @@ fn a_frame_from_elsewhere_is_drawn_anew() {
     let views = "camera eye=5,3,6|-5.6,4.8,9.2";
     let arguments = ["--compare", views, "--frames", "1", "--set", "occlusion rays=0"];
     let after = render(NAME, "64x40", &arguments).picture;
-    let alone = picture("64x40", &["camera eye=5,3,6", "occlusion rays=0"]);
+    let alone = chapter("64x40").sets(&["camera eye=5,3,6", "occlusion rays=0"]).picture();
     assert!(bits(&after) == bits(&alone));
 }
 
@@ -61,6 +48,6 @@ fn a_picture_larger_than_a_device_draws_is_refused_in_one_line() {
 #[test]
 fn weights_are_numbers_also_where_nothing_is_seen() {
     run::needs!(NAME);
-    let picture = picture("64x40", &["show=weights"]);
+    let picture = chapter("64x40").sets(&["show=weights"]).picture();
     assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()));
 }

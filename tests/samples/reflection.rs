@@ -2,8 +2,6 @@
 
 mod plots;
 
-use std::path::Path;
-
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, RayTracingPipeline, Requirements};
 use common::scene::{Scene, Sun};
@@ -13,30 +11,13 @@ use serde_json::json;
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{
-    bits, command, expected, golden, refused, render, render_by, same_answers, same_colors,
-    shaders_with,
-};
+use run::{Chapter, bits, expected, refused, render, same_answers, same_colors, shaders_with};
 
 const NAME: &str = "06_reflection";
 const SIZE: &str = "120x75";
 
-/// A picture with these controls set.
-fn picture(size: &str, sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, size, &arguments).picture
-}
-
-/// The same by other shaders.
-fn picture_by(shaders: &Path, size: &str, sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render_by(command(NAME).env("SHADERS", shaders), size, &arguments).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture("240x150", &[]), 0.002);
+fn chapter(size: &str) -> Chapter {
+    Chapter::new(NAME).size(size)
 }
 
 fn gpu() -> Gpu {
@@ -85,8 +66,8 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     let methods = ["method=iterative", "method=recursive"];
     for method in methods.into_iter().take(if nests() { 2 } else { 1 }) {
         let sets = ["show=hit", "bounce=1", method];
-        let off = picture_by(without.path(), SIZE, &sets);
-        same_answers(method, NAME, &off, &picture(SIZE, &sets));
+        let off = chapter(SIZE).shaders(without.path()).sets(&sets).picture();
+        same_answers(method, NAME, &off, &chapter(SIZE).sets(&sets).picture());
     }
 }
 
@@ -109,7 +90,8 @@ fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
     const MINIMUM: f32 = 0.1;
     let scene = Scene::chess_of_metal().unwrap();
     let exact = reference(&scene);
-    let show = |sets: &[&str]| picture(SIZE, &[&["minimum contribution=0.1"], sets].concat());
+    let show =
+        |sets: &[&str]| chapter(SIZE).sets(&["minimum contribution=0.1"]).sets(sets).picture();
     let [hits, directions, normals] =
         ["hit", "ray direction", "normal"].map(|view| show(&[&format!("show={view}")]));
     let reflected = show(&["show=ray direction", "bounce=1"]);
@@ -164,7 +146,11 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     let lifts = "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);";
     let flat = shaders_with("common/ray_offset.glsl", lifts, "at.lift = vec3(0.0);");
     let show = |sets: &[&str]| {
-        picture_by(flat.path(), "240x150", &[&["minimum contribution=0"], sets].concat())
+        chapter("240x150")
+            .shaders(flat.path())
+            .sets(&["minimum contribution=0"])
+            .sets(sets)
+            .picture()
     };
     let [hits, starts] = ["show=hit", "show=shadow origin"].map(|view| show(&[view]).pixels);
     let directions = show(&["show=ray direction"]);

@@ -3,8 +3,8 @@
 
 /// The values of all controls after settings.
 fn values(name: &str, sets: &[&str]) -> Vec<String> {
-    let sets = sets.iter().flat_map(|set| ["--set", set]);
-    let output = run::command(name).arg("--list-controls").args(sets).output().unwrap();
+    let mut command = run::command(name);
+    let output = command.arg("--list-controls").args(run::set_arguments(sets)).output().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{name}: {errors}");
     String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()

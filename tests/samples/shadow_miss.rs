@@ -3,28 +3,19 @@
 mod offsets;
 mod price;
 
-use common::app::Picture;
 use common::scene::Sun;
 use glam::Vec3;
 use reference::Ray;
 use serde_json::json;
 
 use crate::shadow_rays::{hold_answers, hold_origins, is_on_a_square, picture_by};
-use run::{expected, golden, render, same_answers, same_colors, shaders_with};
+use run::{Chapter, expected, same_answers, same_colors, shaders_with};
 
 const NAME: &str = "05_shadow_miss";
 const SIZE: &str = "240x150";
 
-/// A picture with these controls set.
-fn picture(sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, SIZE, &arguments).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture(&[]), 0.002);
+fn chapter() -> Chapter {
+    Chapter::new(NAME).size(SIZE)
 }
 
 fn to_sun(origin: Vec3) -> Ray {
@@ -61,7 +52,7 @@ fn ending_at_the_first_hit_changes_nothing() {
     let [with, without] = FIRST_HIT;
     let nearest = shaders_with("common/shadow.glsl", with, without);
     let nearest = picture_by(nearest.path(), NAME, &[]);
-    same_colors("to the first and to the nearest hit", NAME, &picture(&[]), &nearest);
+    same_colors("to the first and to the nearest hit", NAME, &chapter().picture(), &nearest);
 }
 
 #[test]
@@ -69,13 +60,18 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     let asks = "dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end)";
     let silent = shaders_with("common/lighting.glsl", asks, "dot(start.up, to_light) > 0.0");
     let silent = picture_by(silent.path(), NAME, &["show=hit"]);
-    same_answers("with and without shadow rays", NAME, &silent, &picture(&["show=hit"]));
+    same_answers(
+        "with and without shadow rays",
+        NAME,
+        &silent,
+        &chapter().sets(&["show=hit"]).picture(),
+    );
 }
 
 /// The sun on the horizon is within the plane of the board, and not above it.
 #[test]
 fn a_sun_on_the_horizon_does_not_light_the_board() {
-    let level = picture(&["sun elevation=0", "show=shadow origin"]);
+    let level = chapter().sets(&["sun elevation=0", "show=shadow origin"]).picture();
     let board = level.pixels.iter().filter(|pixel| is_on_a_square(pixel));
     assert!(board.clone().count() > 5000 && board.clone().all(|pixel| pixel[3] == 0.0));
 }

@@ -9,14 +9,13 @@ use reference::Ray;
 use reference::scene::Scene as Exact;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{command, flat_shaders, render_by};
+use run::{Chapter, flat_shaders};
 
 const SIZE: &str = "240x150";
 
 /// A picture by shaders of a folder, with these controls set.
 pub fn picture_by(shaders: &Path, name: &str, sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render_by(command(name).env("SHADERS", shaders), SIZE, &arguments).picture
+    Chapter::new(name).size(SIZE).shaders(shaders).sets(sets).picture()
 }
 
 /// A ray from a point to the light, of the very bits that a shader in f32 makes of them.

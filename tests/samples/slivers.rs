@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use run::render;
+use run::Chapter;
 
 /// Views of the test: pictures, and the views that say where rays leave a surface.
 const VIEWS: [(&str, &[&str]); 10] = [
@@ -37,10 +37,9 @@ fn a_vanishing_triangle_makes_no_infinite_number() {
         let folder = sliver(corner);
         let scene = folder.path().join("s.obj");
         for (name, sets) in VIEWS {
-            let mut arguments = vec!["--scene", scene.to_str().expect("a path")];
-            arguments.extend(camera.iter().chain(sets).flat_map(|set| ["--set", set]));
             // An odd number of columns: the rays of the middle one go straight through the edge.
-            let seen = render(name, "5x5", &arguments).picture.pixels;
+            let chapter = Chapter::new(name).size("5x5").scene(&scene);
+            let seen = chapter.sets(&camera).sets(sets).picture().pixels;
             let all = seen.as_flattened().iter().all(|x| x.is_finite());
             assert!(all, "{name} {sets:?}, {corner}: {seen:?}");
             // Alpha is -1 where a view shows no surface.

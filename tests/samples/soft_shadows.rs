@@ -1,22 +1,12 @@
 //! 35_soft_shadows: what part of a disk is seen, and what its points cost.
 
-use common::app::Picture;
-
-use run::{bits, golden, render, same_colors};
+use run::{Chapter, bits, render, same_colors};
 
 const NAME: &str = "35_soft_shadows";
 const SIZE: &str = "240x150";
 
-/// A picture with these controls set.
-fn picture(sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, SIZE, &arguments).picture
-}
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &picture(&[]), 0.002);
+fn chapter() -> Chapter {
+    Chapter::new(NAME).size(SIZE)
 }
 
 #[test]
@@ -26,7 +16,7 @@ fn a_light_without_size_costs_one_ray_and_no_noise() {
         let hard = render("34_lights", SIZE, &set).picture;
         for samples in ["light samples=1", "light samples=64"] {
             let sets = [light, "light size=0", samples];
-            same_colors(&format!("{sets:?}"), NAME, &picture(&sets), &hard);
+            same_colors(&format!("{sets:?}"), NAME, &chapter().sets(&sets).picture(), &hard);
         }
     }
 }
@@ -36,8 +26,8 @@ fn a_penumbra_lies_between_light_and_shadow() {
     for (light, size) in
         [("light=directional", "light size=0.05"), ("light=point", "light size=0.4")]
     {
-        let soft = picture(&[light, size, "show=shadow"]);
-        let hard = picture(&[light, "light size=0", "show=shadow"]);
+        let soft = chapter().sets(&[light, size, "show=shadow"]).picture();
+        let hard = chapter().sets(&[light, "light size=0", "show=shadow"]).picture();
         let (mut between, mut opposite) = (0, 0);
         for (soft, hard) in
             soft.pixels.iter().zip(&hard.pixels).filter(|(_, hard)| hard[0] == hard[2])
@@ -60,5 +50,5 @@ fn a_penumbra_lies_between_light_and_shadow() {
 #[test]
 fn a_penumbra_needs_no_luck() {
     let sets = ["light samples=5"];
-    assert_eq!(bits(&picture(&sets)), bits(&picture(&sets)));
+    assert_eq!(bits(&chapter().sets(&sets).picture()), bits(&chapter().sets(&sets).picture()));
 }

@@ -5,16 +5,10 @@ use serde_json::json;
 
 use crate::shadow_rays::{picture_by, seen};
 use run::primary_hits::reference;
-use run::{copy_of_shaders, expected, flat_shaders, golden, render, same_answers, same_colors};
+use run::{copy_of_shaders, expected, flat_shaders, render, same_answers, same_colors};
 
 const NAME: &str = "36_two_normals";
 const SIZE: &str = "240x150";
-
-#[test]
-fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &render(NAME, SIZE, &[]).picture, 0.002);
-}
 
 #[test]
 fn with_the_cure_it_is_the_picture_of_05() {

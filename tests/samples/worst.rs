@@ -1,7 +1,7 @@
 //! Every chapter in the worst arithmetic that conforms: finite pictures, near the driver's own.
 
 use common::app::Picture;
-use run::{Near, Run, bits, flip, has_worst_arithmetic, render, same_colors};
+use run::{Near, Run, bits, flip, has_worst_arithmetic, render, same_colors, set_arguments};
 
 const SIZE: &str = "96x60";
 
@@ -127,8 +127,7 @@ fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
     }
     let layer = |layer: &str, no_duplicates: &str| {
         let sets = ["mode=all hits", "show=triangle", layer, no_duplicates];
-        let arguments: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
-        bits(&rendered("03_any_hit", "worst", &arguments).picture)
+        bits(&rendered("03_any_hit", "worst", &set_arguments(&sets)).picture)
     };
     let [first, second, third] =
         ["layer=0", "layer=1", "layer=2"].map(|name| layer(name, "no duplicates=off"));

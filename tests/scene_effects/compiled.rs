@@ -2,7 +2,7 @@
 
 use common::gpu::ShaderEnum;
 use effects::Effect;
-use run::{compiled_for, expected};
+use run::{compiled_for, expected, set_arguments};
 use serde_json::{Map, Value};
 
 use super::{NAME, SCENES};
@@ -50,9 +50,8 @@ fn thousands(number: u64) -> String {
 /// Estimates for a scene's own pipeline, or for the one with everything; `None` without the compiler.
 fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
     let sets = [format!("scene={scene}"), format!("pipeline={pipeline}")];
-    let sets = sets.iter().flat_map(|set| ["--set", set.as_str()]);
-    let arguments: Vec<&str> = ["--size", "16x10"].into_iter().chain(sets).collect();
-    compiled_for(NAME, family, &arguments)
+    let sets = set_arguments(&sets.each_ref().map(String::as_str));
+    compiled_for(NAME, family, &[&["--size", "16x10"], &sets[..]].concat())
 }
 
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];

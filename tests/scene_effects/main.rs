@@ -17,7 +17,7 @@ use effects::{Effect, Effects, findings, needed};
 use reference::random::Random;
 use serde_json::{Value, json};
 
-use run::{Run, bits, expected, golden, render, root, same_colors};
+use run::{Chapter, Run, bits, expected, golden, render, root, same_colors, set_arguments};
 
 const NAME: &str = "25_scene_effects";
 
@@ -126,8 +126,7 @@ const EVERY_STAGE: [&str; 12] = [
 ];
 
 fn run(size: &str, scene: &[&str], sets: &[&str]) -> Run {
-    let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    render(NAME, size, &scene.iter().copied().chain(sets).collect::<Vec<_>>())
+    Chapter::new(NAME).size(size).with(scene).sets(sets).run()
 }
 
 /// A pixel's number, and its colours in two pictures.
@@ -312,10 +311,8 @@ fn an_edit_that_changes_the_set_changes_the_pipeline() {
         let mut effects = set_of(SCENES.iter().find(|(name, ..)| *name == scene).unwrap().1);
         effects = if there { effects.with(effect) } else { effects.without(effect) };
         let scene = format!("scene={scene}");
-        let arguments: Vec<&str> =
-            [scene.as_str()].into_iter().chain(edits.iter().copied()).collect();
-        let arguments: Vec<&str> = arguments.into_iter().flat_map(|set| ["--set", set]).collect();
-        let own = same_by_both("48x30", &arguments);
+        let sets = [&[scene.as_str()], edits].concat();
+        let own = same_by_both("48x30", &set_arguments(&sets));
         assert_eq!(
             own.report["chapter"]["pipeline"]["effects"],
             json!(effects.names()),

@@ -1,7 +1,7 @@
 //! Surfaces and rays for which a cone has no width, or none that is a number.
 
-use super::{FOOTPRINTS, NAME, bent, picture};
-use run::evaluate;
+use super::{FOOTPRINTS, NAME, bent};
+use run::{Chapter, evaluate};
 
 /// Hostile values of a width, a spread, a distance or a curvature; a cosine is from 0 to 1.
 const BAD: &str = "
@@ -101,7 +101,10 @@ fn views_are_of_numbers(footprints: &[&str]) {
                 "camera target=0,0.5,8".to_owned(),
                 "field of view=140".to_owned(),
             ];
-            let seen = picture(NAME, "64x40", &sets.each_ref().map(String::as_str));
+            let seen = Chapter::new(NAME)
+                .size("64x40")
+                .sets(&sets.each_ref().map(String::as_str))
+                .picture();
             let is_color = |x: &f32| x.is_finite() && *x >= 0.0;
             let all = seen.pixels.iter().all(|pixel| pixel.iter().all(is_color));
             assert!(all, "{footprint} {eye}");

@@ -4,8 +4,8 @@
 use common::app::Picture;
 use serde_json::{Map, Value};
 
-use super::{FOOTPRINTS, NAME, picture};
-use run::{expected, render};
+use super::{FOOTPRINTS, NAME};
+use run::{Chapter, expected, render};
 
 /// The instances, with the floor at 0.
 const SURFACES: [(&str, f32); 3] = [("mirror", 1.0), ("hollow", 2.0), ("glass", 3.0)];
@@ -26,7 +26,10 @@ fn view(slid: f64) -> [String; 2] {
 fn seen(slid: f64, sets: &[&str]) -> Picture {
     let from = view(slid);
     let from = from.iter().map(String::as_str);
-    picture(NAME, VIEW, &from.chain(sets.iter().copied()).collect::<Vec<_>>())
+    Chapter::new(NAME)
+        .size(VIEW)
+        .sets(&from.chain(sets.iter().copied()).collect::<Vec<_>>())
+        .picture()
 }
 
 /// The pixels in which, with their four neighbours, a surface and no other is seen in so many frames.

@@ -6,7 +6,7 @@ use glam::DVec2;
 use serde_json::json;
 
 use super::points::{hash, mirrored, owen, sobol_second};
-use super::{AT_ORIGIN, SIZE, SMALL, picture};
+use super::{AT_ORIGIN, SIZE, SMALL, chapter};
 use run::expected;
 
 /// Purpose of a random number, as in `shaders/common/random.glsl` and `sample_point.glsl`.
@@ -49,7 +49,7 @@ pub fn in_polygon(corners: u32, [u, v]: [f64; 2]) -> DVec2 {
 fn places(size: &str, frame: u32, blades: u32, more: &[&str]) -> Vec<DVec2> {
     let blades = format!("blades={blades}");
     let sets = [&AT_ORIGIN[..], &["show=ray origin", "lens diameter=2", &blades], more].concat();
-    let origins = picture(size, frame + 1, &sets);
+    let origins = chapter(size).frames(frame + 1).sets(&sets).picture();
     assert!(origins.pixels.iter().all(|pixel| pixel[2] == 0.0), "the lens is no plane");
     origins.pixels.iter().map(|pixel| DVec2::new(pixel[0].into(), pixel[1].into())).collect()
 }

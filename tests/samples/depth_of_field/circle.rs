@@ -7,7 +7,7 @@ use common::app::Picture;
 use serde_json::{Map, json};
 use tempfile::TempDir;
 
-use super::{NAME, picture_of};
+use super::{NAME, chapter};
 use run::{command, expected};
 
 /// Radiance of the light: that of the sky behind it is a millionth.
@@ -72,11 +72,8 @@ impl Lamps {
             format!("field of view={VIEW}"),
             format!("focus distance={FOCUS}"),
         ];
-        let sets: Vec<&str> =
-            camera.iter().map(String::as_str).chain(sets.iter().copied()).collect();
-        let size = format!("{}x{}", SIZE[0], SIZE[1]);
-        let scene = ["--scene", model.to_str().expect("a path of text")];
-        let Picture { pixels, .. } = picture_of(&scene, &size, frames, &sets);
+        let chapter = chapter(&format!("{}x{}", SIZE[0], SIZE[1])).scene(model).frames(frames);
+        let Picture { pixels, .. } = chapter.sets(&camera).sets(sets).picture();
         pixels.iter().map(|pixel| f64::from(pixel[0]) / RADIANCE).collect()
     }
 }

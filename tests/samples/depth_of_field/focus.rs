@@ -5,7 +5,7 @@ use common::scene::Camera;
 use glam::{DVec2, DVec3};
 use serde_json::Map;
 
-use super::{SMALL, picture};
+use super::{SMALL, chapter};
 use run::{bits, expected};
 
 /// Half the width of a picture 600 pixels high, over that of one pixel, at distance 1.
@@ -40,7 +40,7 @@ fn crossings(camera: &Camera, focus: f64, origins: &Picture, directions: &Pictur
 /// The rays of one frame.
 fn rays(sets: &[&str]) -> [Picture; 2] {
     ["show=ray origin", "show=ray direction"]
-        .map(|show| picture(SMALL, 2, &[sets, &[show]].concat()))
+        .map(|show| chapter(SMALL).frames(2).sets(sets).sets(&[show]).picture())
 }
 
 /// Greatest distance of a ray from its point in focus, in pixels of a picture 600 high.
@@ -90,7 +90,7 @@ fn focused_at_infinity_the_rays_of_a_place_are_parallel() {
     let direction = |diameter| {
         let sets = ["focus distance=inf", "show=ray direction", diameter];
         // The fourth is the distance of what the ray hits.
-        bits(&picture(SMALL, 2, &sets))
+        bits(&chapter(SMALL).frames(2).sets(&sets).picture())
             .into_iter()
             .map(|[x, y, z, _]| [x, y, z])
             .collect::<Vec<_>>()
@@ -102,7 +102,9 @@ fn focused_at_infinity_the_rays_of_a_place_are_parallel() {
 fn every_rung_is_finite_at_every_focus() {
     for rung in ["rung=world", "rung=eye", "rung=start"] {
         for focus in ["focus distance=0.01", "focus distance=1e30", "focus distance=inf"] {
-            for pixel in picture(SMALL, 1, &["show=ray direction", rung, focus]).pixels {
+            for pixel in
+                chapter(SMALL).frames(1).sets(&["show=ray direction", rung, focus]).picture().pixels
+            {
                 let length = pixel[..3].iter().map(|&c| f64::from(c).powi(2)).sum::<f64>();
                 assert!((length - 1.0).abs() < 1e-6, "{rung} {focus}: {pixel:?}");
             }

@@ -3,8 +3,8 @@
 use common::app::Picture;
 use serde_json::Map;
 
-use super::{NAME, arguments, picture};
-use run::{command, expected, render, render_by, shaders_with};
+use super::{NAME, chapter};
+use run::{expected, render, shaders_with};
 
 /// Small: there are many frames.
 const SIZE: &str = "40x25";
@@ -34,15 +34,13 @@ fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
     let size = "24x15";
     // Each sample is added as a whole number, and the mean is rounded once.
     let exact = render(NAME, size, &["--samples", &format!("0..{FRAMES}")]).picture;
-    let mean = picture(size, FRAMES, &[]);
+    let mean = chapter(size).frames(FRAMES).picture();
     let sums = shaders_with(
         "28_depth_of_field/camera.rgen",
         "mean += (payload - mean) / float(push.accumulated + 1);\n    imageStore(means, pixel, mean);",
         "mean += payload;\n    imageStore(means, pixel, mean);\n    mean /= float(push.accumulated + 1);",
     );
-    let mut by_sum = command(NAME);
-    let sum =
-        render_by(by_sum.env("SHADERS", sums.path()), size, &arguments(&[], FRAMES, &[])).picture;
+    let sum = chapter(size).shaders(sums.path()).frames(FRAMES).picture();
     let mut table = Map::new();
     for (name, picture) in [("sum", &sum), ("mean", &mean)] {
         let [bias, most] = off(picture, &exact);
@@ -64,11 +62,13 @@ fn samples_buy_less_where_the_lens_blurs() {
     let mut table = Map::new();
     let mut slopes = Vec::new();
     for (name, lens) in [("pinhole", "lens diameter=0"), ("lens", "lens diameter=0.6")] {
-        let reference = picture(SIZE, 2048, &[lens, "seed=1"]);
+        let reference = chapter(SIZE).frames(2048).sets(&[lens, "seed=1"]).picture();
         // Of four seeds: in a picture this small, the error of one sample is that of a few lamps.
         let errors = COUNTS.map(|frames| {
-            let square =
-                |seed: &str| error(&picture(SIZE, frames, &[lens, seed]), &reference).powi(2);
+            let square = |seed: &str| {
+                error(&chapter(SIZE).frames(frames).sets(&[lens, seed]).picture(), &reference)
+                    .powi(2)
+            };
             (["seed=0", "seed=2", "seed=3", "seed=4"].map(square).iter().sum::<f64>() / 4.0).sqrt()
         });
         let slope = (errors[4] / errors[1]).log2() / 6.0;
@@ -92,7 +92,7 @@ fn samples_buy_less_where_the_lens_blurs() {
 fn price() {
     let mut table = Map::new();
     for frames in [1, 4, 16, 64, 256u32] {
-        let report = render(NAME, "240x150", &arguments(&[], frames, &[])).report;
+        let report = chapter("240x150").frames(frames).run().report;
         let median = report["gpu_milliseconds"]["median"].as_f64().expect("a time");
         table.insert(frames.to_string(), (median * f64::from(frames)).into());
     }

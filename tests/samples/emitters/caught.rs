@@ -2,10 +2,10 @@
 
 use reference::Ray;
 use run::primary_hits::reference;
-use run::{command, copy_of_shaders, expected, render_by};
+use run::{copy_of_shaders, expected};
 use serde_json::json;
 
-use super::{NAME, picture};
+use super::{NAME, chapter};
 
 #[allow(dead_code)]
 #[path = "../../../samples/29_emitters/alias.rs"]
@@ -61,12 +61,7 @@ fn entries(open: usize) -> [Vec<[f32; 4]>; 2] {
             ("imageStore(picture, ivec2(id), vec4(mean_of_whole(sum), 1.0));", store),
         ],
     );
-    let shown = || {
-        let frames = FRAMES.to_string();
-        let mut arguments = vec!["--frames", &frames];
-        arguments.extend(SETS.iter().flat_map(|set| ["--set", set]));
-        render_by(command(NAME).env("SHADERS", folder.path()), SIZE, &arguments).picture.pixels
-    };
+    let shown = || chapter(SIZE).shaders(folder.path()).frames(FRAMES).sets(&SETS).picture().pixels;
     let origins = shown();
     change("camera.rgen", &[("caught ? entry :", "caught ? way :")]);
     [origins, shown()]
@@ -83,7 +78,7 @@ fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
     let [origins, directions] = entries(open.expect("screens of paper"));
     let scene = reference(&chess);
     let mut caught = 0.0;
-    let pixels = picture(SIZE, FRAMES, &SETS).pixels;
+    let pixels = chapter(SIZE).frames(FRAMES).sets(&SETS).picture().pixels;
     for (i, pixel) in pixels.iter().enumerate() {
         let [x, y, z, t] = origins[i];
         // What a path brings is 1, whatever way it takes, or it is caught and brings nothing.

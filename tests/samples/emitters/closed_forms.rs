@@ -7,7 +7,7 @@ use common::app::Picture;
 use glam::DVec3;
 use serde_json::Map;
 
-use super::{ESTIMATORS, Estimate, NAME, U, brightness, estimator, picture};
+use super::{ESTIMATORS, Estimate, NAME, U, brightness, chapter, estimator};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
 use run::{expected, render};
 
@@ -93,7 +93,7 @@ fn the_closed_form_is_the_integral() {
 #[track_caller]
 fn is_lit_as(expected: &[f64], sets: &[&str], frames: u32) -> Estimate {
     let side = (expected.len() as f64).sqrt() as u32;
-    let shown = brightness(&picture(&format!("{side}x{side}"), frames, sets));
+    let shown = brightness(&chapter(&format!("{side}x{side}")).frames(frames).sets(sets).picture());
     let off: Vec<f64> = shown.iter().zip(expected).map(|(shown, e)| shown - e).collect();
     let estimate = Estimate::of(&off);
     estimate.is(0.0, &format!("{sets:?}"));
@@ -129,11 +129,12 @@ fn many_balls_light_it_as_all_of_them_do_whichever_are_asked() {
         let sets = ["scene=many balls", "estimator=light", "depth=1", &set];
         let estimate = is_lit_as(&expected, &sets, frames);
         // The deviation of a single shadow ray; of Sobol's points it falls faster than that of chance.
-        let single = brightness(&picture("64x64", 1, &sets));
+        let single = brightness(&chapter("64x64").frames(1).sets(&sets).picture());
         let squares = single.iter().zip(&expected).map(|(s, e)| (s - e).powi(2)).sum::<f64>();
         let deviation = (squares / expected.len() as f64).sqrt();
         println!("{choice}: one sample is off by {deviation:.4}");
-        let rays = brightness(&picture("64x64", 1, &[&sets[..], &["show=rays"]].concat()));
+        let rays =
+            brightness(&chapter("64x64").frames(1).sets(&sets).sets(&["show=rays"]).picture());
         let rays = 16.0 * Estimate::of(&rays).mean;
         held.insert(format!("{}.rays", choice.replace(' ', "-")), rays.into());
         held.insert(format!("{choice}.mean"), estimate.mean.into());
@@ -240,7 +241,7 @@ fn the_noise_of_one_sample_is_that_of_theory() {
         let mut squares = Vec::new();
         for seed in 0..4 {
             let sets = ["scene=ball", &estimator(name), "depth=1", &format!("seed={seed}")];
-            let shown = brightness(&picture("64x64", 1, &sets));
+            let shown = brightness(&chapter("64x64").frames(1).sets(&sets).picture());
             squares.extend(shown.iter().zip(&expected).map(|(s, e)| (s - e).powi(2)));
         }
         Estimate::of(&squares).is(theory, &format!("variance of {name}"));
@@ -256,9 +257,7 @@ fn no_shadow_ray_meets_its_emitter(arithmetic: &str) {
         ("scene=parallel squares", "triangles=solid angle"),
     ] {
         let sets = [scene, points, "estimator=light", "depth=1"];
-        let mut arguments = vec!["--arithmetic", arithmetic, "--frames", "1"];
-        arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
-        let shown = render(NAME, "96x96", &arguments).picture;
+        let shown = chapter("96x96").arithmetic(arithmetic).frames(1).sets(&sets).picture();
         let dark = shown.pixels.iter().filter(|pixel| pixel[..3] == [0.0; 3]).count();
         assert_eq!(dark, 0, "{arithmetic} {sets:?}");
     }
@@ -303,14 +302,12 @@ fn covered(gap: f64, shift: f64) -> (tempfile::TempDir, String) {
     (folder, file)
 }
 
-fn of_file(file: &str, shift: f64, frames: &str) -> Picture {
+fn of_file(file: &str, shift: f64, frames: u32) -> Picture {
     let eye = format!("camera eye={shift},0,0.75");
     let target = format!("camera target={shift},0,0");
     let angle = format!("field of view={}", 2.0 * (0.5f64 / 0.75).atan().to_degrees());
     let sets = ["sky=black", "estimator=light", "depth=1", &eye, &target, &angle];
-    let mut arguments = vec!["--scene", file, "--frames", frames];
-    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
-    render(NAME, "64x64", &arguments).picture
+    chapter("64x64").scene(file).frames(frames).sets(&sets).picture()
 }
 
 /// If a shadow ray ended short of its emitter, a surface within that gap would not hide the emitter.
@@ -318,13 +315,13 @@ fn of_file(file: &str, shift: f64, frames: &str) -> Picture {
 fn no_light_leaks_through_what_lies_close_before_an_emitter() {
     for (shift, gap) in [(0.0, 4e-5), (16.0, 4e-4)] {
         let (_folder, file) = covered(gap, shift);
-        let lit = of_file(&file, shift, "16");
+        let lit = of_file(&file, shift, 16);
         let leaks = lit.pixels.iter().filter(|pixel| pixel[..3] != [0.0; 3]).count();
         assert_eq!(leaks, 0, "pixels get light through a cover {gap} before the emitter");
     }
     // Without the cover, the file shines by its Ke.
     let (_folder, file) = covered(-0.5, 0.0);
-    let lit = brightness(&of_file(&file, 0.0, "16"));
+    let lit = brightness(&of_file(&file, 0.0, 16));
     let expected = form_factors(64, &SQUARES[0].1);
     let off: Vec<f64> = lit.iter().zip(&expected).map(|(lit, e)| lit - e).collect();
     Estimate::of(&off).is(0.0, "a square from a file");
@@ -334,14 +331,14 @@ fn no_light_leaks_through_what_lies_close_before_an_emitter() {
 fn a_furnace_is_white_whoever_finds_its_light() {
     for name in ESTIMATORS {
         let sets = ["scene=furnace", "depth=256", &estimator(name)];
-        let shown = picture("96x60", 16, &sets);
+        let shown = chapter("96x60").frames(16).sets(&sets).picture();
         let estimate = Estimate::of(&brightness(&shown));
         estimate.is(1.0, &format!("furnace, {name}"));
         assert!(estimate.confidence < 0.03, "{name}");
         if name == "BSDF" {
             // What a path brings is 1, whatever way it takes: no chance, no rounding.
             // Seed 0 loses some: see `caught`.
-            let other = picture("96x60", 16, &[&sets[..], &["seed=1"]].concat());
+            let other = chapter("96x60").frames(16).sets(&sets).sets(&["seed=1"]).picture();
             let grey = other.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
             assert_eq!(grey, 0, "pixels of the furnace that are not white");
         }
@@ -364,7 +361,8 @@ fn the_room_is_as_bright_as_its_series(estimators: &[&str], depths: &[i32]) {
         for &depth in depths {
             let set = format!("depth={depth}");
             let sets = ["scene=closed room", &set, &estimator(name)];
-            let estimate = Estimate::of(&brightness(&picture("96x60", 16, &sets)));
+            let estimate =
+                Estimate::of(&brightness(&chapter("96x60").frames(16).sets(&sets).picture()));
             // 1/2 + 1/4 + … + 1/2^(depth + 1): each depth is what it is for all three.
             let expected = 1.0 - 0.5f64.powi(depth + 1);
             if depth == 0 {

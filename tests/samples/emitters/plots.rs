@@ -5,10 +5,10 @@ use common::app::Picture;
 use serde_json::Map;
 
 use super::closed_forms::{lit_by_balls, mean_variances, variances_of_squares};
-use super::{ESTIMATORS, Estimate, NAME, brightness, estimator, picture};
+use super::{ESTIMATORS, Estimate, brightness, chapter, estimator};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
+use run::expected;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
-use run::{expected, render};
 
 #[test]
 #[ignore = "by hand: draws docs/images/29_estimators.png"]
@@ -21,7 +21,7 @@ fn estimators() {
             "camera target=-2.0,0.45,0.35",
             "field of view=19",
         ];
-        (names[i].to_owned(), picture("320x240", 64, &sets))
+        (names[i].to_owned(), chapter("320x240").frames(64).sets(&sets).picture())
     };
     draw_panels("29_estimators.png", 1, &[Shown::row(&[0, 1, 2].map(show))]);
 }
@@ -46,11 +46,10 @@ fn relative(shown: &[f64], expected: &[f64]) -> f64 {
 /// The error of one sample a pixel: the root mean square over the first 64 samples, each alone. A path that meets a
 /// small bright ball is rare, so one sample of 1,024 pixels does not tell.
 fn error_alone(sets: &[&str], expected: &[f64]) -> f64 {
-    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
     let square = |k: u32| {
         let samples = format!("{k}..{}", k + 1);
-        let run = render(NAME, "32x32", &[&["--samples", &samples], &sets[..]].concat());
-        relative(&brightness(&run.picture), expected).powi(2)
+        let picture = chapter("32x32").with(&["--samples", &samples]).sets(sets).picture();
+        relative(&brightness(&picture), expected).powi(2)
     };
     ((0..64).map(square).sum::<f64>() / 64.0).sqrt()
 }
@@ -78,10 +77,13 @@ fn errors() {
         let set = format!("scene={scene}");
         for (i, name) in ESTIMATORS.iter().enumerate() {
             let sets = [&set[..], &estimator(name), "depth=1"];
-            let rays = rays(&picture("32x32", 4, &[&sets[..], &["show=rays"]].concat()));
+            let rays = rays(&chapter("32x32").frames(4).sets(&sets).sets(&["show=rays"]).picture());
             let mut points = Vec::new();
             for frames in FRAMES {
-                let error = relative(&brightness(&picture("32x32", frames, &sets)), expected);
+                let error = relative(
+                    &brightness(&chapter("32x32").frames(frames).sets(&sets).picture()),
+                    expected,
+                );
                 println!("{scene}, {name}, {frames} samples: {error:.5}");
                 points.push([rays * f64::from(frames), error]);
                 if frames == 64 {
@@ -128,7 +130,7 @@ const SMALL: &str = "96x60";
 #[test]
 #[ignore = "nightly: paths of 256 bounces; quick: emitters::closed_forms::a_room_that_shines_is_as_bright_as_its_series"]
 fn a_depth_leaves_out_what_its_paths_do_not_reach() {
-    let of = |depth: u32| brightness(&picture(SMALL, 16, &[&format!("depth={depth}")]));
+    let of = |depth: u32| brightness(&chapter(SMALL).frames(16).set("depth", depth).picture());
     let all = of(256);
     let mut held = Map::new();
     let mut last = f64::INFINITY;
@@ -149,12 +151,8 @@ fn a_depth_leaves_out_what_its_paths_do_not_reach() {
 #[ignore = "by hand: draws docs/images/29_price.svg; takes minutes"]
 fn price() {
     let shared = ["depth=4", "clamp=0"];
-    let of = |sets: &[&str], frames: u32| {
-        let frames = frames.to_string();
-        let mut arguments = vec!["--frames", &frames];
-        arguments.extend(shared.iter().chain(sets).flat_map(|set| ["--set", set]));
-        render(NAME, SMALL, &arguments)
-    };
+    let of =
+        |sets: &[&str], frames: u32| chapter(SMALL).frames(frames).sets(&shared).sets(sets).run();
     let reference = brightness(&of(&["seed=9"], 2048).picture);
     let mut held = Map::new();
     let mut charts: Vec<Curves> =

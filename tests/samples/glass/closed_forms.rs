@@ -6,7 +6,7 @@ use glam::DVec3;
 use run::expected;
 use serde_json::json;
 
-use super::{U, picture};
+use super::{U, chapter};
 
 /// The index of all three bodies.
 const INDEX: f64 = 1.5;
@@ -26,7 +26,7 @@ fn rays(camera: &Camera, size: (u32, u32)) -> Vec<(DVec3, DVec3)> {
 
 /// The last rays of a picture's paths, and how many rays each path has.
 fn last_rays(size: &str, sets: &[&str]) -> Vec<(DVec3, DVec3, u32)> {
-    let show = |show: &str| picture(size, 1, &[sets, &[show]].concat());
+    let show = |show: &str| chapter(size).frames(1).sets(sets).sets(&[show]).picture();
     let [origins, directions] = ["show=last origin", "show=last direction"].map(show);
     let vector = |p: &[f32; 4]| DVec3::new(p[0].into(), p[1].into(), p[2].into());
     let pixels = |p: &Picture| p.pixels.clone();
@@ -187,7 +187,7 @@ fn a_pane_shows_the_sky_behind_it_and_mirrors_the_sky_above() {
     const FRAMES: u32 = 256;
     let camera = Camera::new(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 40.0);
     let normal = DVec3::new(0.0, 1.2f64.sin(), 1.2f64.cos());
-    let shown = picture("64x40", FRAMES, &["scene=pane"]);
+    let shown = chapter("64x40").frames(FRAMES).sets(&["scene=pane"]).picture();
     let (mut off, mut variance, mut mirrored, mut count) = (0.0, 0.0, 0.0, 0.0);
     for ((eye, ray), pixel) in rays(&camera, (64, 40)).into_iter().zip(&shown.pixels) {
         let cosine = -ray.dot(normal);

@@ -9,10 +9,10 @@ use glam::DVec3;
 use reference::Ray;
 use serde_json::{Value, json};
 
+use super::chapter;
 use super::ground::Landscape;
 use super::judged::{Exact, Verdict};
 use super::scenes::{Preset, PresetName};
-use super::shown;
 use run::primary_hits::rays;
 
 pub const RUNGS: [&str; 4] = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
@@ -32,8 +32,7 @@ impl Alone {
     }
 
     pub fn shown(&self, size: &str, sets: &[&str]) -> Picture {
-        let path = self.0.path().join("a.obj").display().to_string();
-        shown(size, sets, &["--scene", &path])
+        chapter(size).sets(sets).scene(self.0.path().join("a.obj")).picture()
     }
 
     /// The rays of the camera, as the GPU wrote them.

@@ -9,7 +9,7 @@ use reference::Ray;
 use super::judged::Verdict;
 use super::marched::camera;
 use super::world::World;
-use super::{GROUND, HILLS, STEEP, land, scenes, shown};
+use super::{GROUND, HILLS, STEEP, chapter, land, scenes};
 use run::primary_hits::rays;
 
 /// A cube of a millimetre far away, one of a kilometre, and one of the chess set's size.
@@ -23,7 +23,7 @@ fn a_model_from_a_file_stands_on_the_hill_whatever_its_size() {
         let faces = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
         std::fs::write(&file, corners.collect::<String>() + faces).unwrap();
         let scene = ["--scene", file.to_str().expect("a path of text")];
-        let hits = shown("120x75", &["show=hit"], &scene);
+        let hits = chapter("120x75").sets(&["show=hit"]).with(&scene).picture();
         hits.pixels.iter().filter(|pixel| pixel[0] == 0.0).count()
     };
     let counts = [seen(1e-3, 1.0), seen(1e3, -1e5), seen(2.0, 0.0)];
@@ -68,7 +68,7 @@ fn the_chess_set_stands_on_the_ground() {
         let k = format!("steepness={}", landscape.k);
         let sets = [&k[..], "camera eye=8,70,1", "camera target=8,0,0"];
         let sets = [&sets[..], &["field of view=8", "show=hit"]].concat();
-        let seen = shown("300x300", &sets, &[]);
+        let seen = chapter("300x300").sets(&sets).picture();
         let seen: BTreeSet<i32> = seen.pixels.iter().map(|hit| hit[0] as i32).collect();
         assert_eq!(
             seen.iter().filter(|instance| (0..GROUND as i32).contains(*instance)).count(),
@@ -83,7 +83,7 @@ fn ground_and_pieces_hide_each_other() {
     let mut seen = BTreeMap::<String, usize>::new();
     let (mut edges, mut all) = (0, 0);
     for preset in ["preset=hills", "preset=from above", "preset=near ground"] {
-        let show = |view| shown("120x75", &[preset, view], &[]);
+        let show = |view| chapter("120x75").sets(&[preset, view]).picture();
         let (directions, hits) = (show("show=ray direction"), show("show=hit"));
         for (ray, hit) in rays(&camera(&[preset]), &directions).zip(&hits.pixels) {
             all += 1;
@@ -122,7 +122,7 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
         (sun(270.0, 17.0), &["camera eye=-8,0.25,6", "camera target=-8,-0.75,-2"]),
         (sun(20.0, 75.0), &["sun azimuth=20", "sun elevation=75"]),
     ] {
-        let show = |view| shown("150x94", &[sets, &[view]].concat(), &[]);
+        let show = |view| chapter("150x94").sets(sets).sets(&[view]).picture();
         let (hits, shadows) = (show("show=hit"), show("show=shadow origin"));
         for (hit, &[x, y, z, visible]) in hits.pixels.iter().zip(&shadows.pixels) {
             let on = kind(hit[0]);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use reference::sphere::Sphere;
 use serde_json::json;
 
-use super::{Octahedron, PLANE, level, shown};
+use super::{Octahedron, PLANE, chapter, level};
 use run::primary_hits::rays;
 use run::{bits, expected};
 
@@ -49,7 +49,8 @@ fn the_four_spheres_are_where_they_should_be() {
     ];
     let sets = ["preset=four spheres"];
     let model = Octahedron::out_of_sight();
-    let show = |view| shown("150x150", &[&sets[..], &[view]].concat(), &["--scene", &model.path()]);
+    let show =
+        |view| chapter().size("150x150").sets(&sets).sets(&[view]).scene(model.path()).picture();
     let (hits, directions) = (show("show=hit"), show("show=ray direction"));
     let eye = DVec3::new(0.0, 0.0, -10.0);
     let camera = Camera::new(eye, DVec3::ZERO, 90.0);
@@ -104,7 +105,13 @@ fn the_checker_board_is_averaged_over_each_pixel() {
     // What the plane is, how light, and how far away.
     let light = |size: &str, checker: &str| {
         let [hits, squares] = ["show=hit", "show=triangle"].map(|show| {
-            shown(size, &[&sets[..], &[checker, show]].concat(), &["--scene", &model.path()]).pixels
+            chapter()
+                .size(size)
+                .sets(&sets)
+                .sets(&[checker, show])
+                .scene(model.path())
+                .picture()
+                .pixels
         });
         let both = hits.iter().zip(squares).map(|(hit, square)| [hit[0], square[0], hit[2]]);
         both.collect::<Vec<_>>()

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::ulp::ulp_error;
 
-use super::{NAME, Octahedron, PLANE, level, picture, pieces};
+use super::{NAME, Octahedron, PLANE, chapter, level, pieces};
 use run::flat_shaders;
 use run::primary_hits::rays;
 
@@ -17,7 +17,7 @@ const IMAGE: [&str; 2] = ["camera eye=-3.4,-1.6,7.2", "camera target=0.6,-0.62,0
 /// Holds every hit of a view of the board preset to the exact one; tells how many are on the plane and
 /// on pieces. Rays that come from below pass the plane.
 fn hits_are_exact(exact: &reference::scene::Scene, sets: &[&str], sign: f64) -> [usize; 2] {
-    let show = |view| picture(&[sets, &[view]].concat());
+    let show = |view| chapter().sets(sets).sets(&[view]).picture();
     let (hits, directions) = (show("show=hit"), show("show=ray direction"));
     let camera =
         Camera::new(DVec3::new(-3.4, sign * 1.6, 7.2), DVec3::new(0.6, sign * 0.62, 0.0), 37.0);
@@ -74,9 +74,10 @@ fn the_plane_mirrors_the_pieces() {
         "dark squares=0,0,0",
         "depth=1",
     ];
-    let mirrored = picture(&[&EYE[..], &mirror].concat());
-    let [direct, behind] = [&[][..], &["show=hit"]].map(|view| picture(&[&image, view].concat()));
-    let met = picture(&[&EYE[..], &["show=hit"]].concat());
+    let mirrored = chapter().sets(&EYE).sets(&mirror).picture();
+    let [direct, behind] =
+        [&[][..], &["show=hit"]].map(|view| chapter().sets(&image).sets(view).picture());
+    let met = chapter().sets(&EYE).sets(&["show=hit"]).picture();
     let (width, height) = (120, 75);
     let ([mut alike, mut other], mut piece) = ([0; 2], 0);
     for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {

@@ -4,7 +4,7 @@ use common::scene::Sun;
 use glam::Vec3;
 use reference::Ray;
 
-use super::{Octahedron, PLANE, picture, pieces};
+use super::{Octahedron, PLANE, chapter, pieces};
 
 #[test]
 fn no_ray_meets_the_plane_that_it_leaves() {
@@ -35,8 +35,8 @@ fn no_ray_meets_the_plane_that_it_leaves() {
 #[test]
 fn pieces_throw_shadows_on_the_plane() {
     let exact = pieces();
-    let hits = picture(&["show=hit"]);
-    let shadows = picture(&["show=shadow origin"]);
+    let hits = chapter().sets(&["show=hit"]).picture();
+    let shadows = chapter().sets(&["show=shadow origin"]).picture();
     let sun = Sun { azimuth: 285.0, elevation: 17.0, ..Sun::default() };
     let light = sun.light().direction.to_array();
     let (mut lit, mut dark, mut edges) = (0, 0, 0);

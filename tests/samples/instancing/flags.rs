@@ -3,7 +3,7 @@
 use reference::hit::Hit;
 
 use super::formation::{BLACK, BOARD, WHITE};
-use super::{FEW, SPECIMEN, ViewedScene, indices, picture};
+use super::{FEW, SPECIMEN, ViewedScene, chapter, indices};
 use run::bits;
 use run::primary_hits::answer;
 
@@ -11,11 +11,11 @@ use run::primary_hits::answer;
 fn a_mask_hides_from_the_camera_and_keeps_the_shadow() {
     let viewed = ViewedScene::few();
     let mask = |index: u32| viewed.pieces[index as usize].mask;
-    let all = picture(&[&FEW[..], &["show=hit"]].concat());
+    let all = chapter().sets(&FEW).sets(&["show=hit"]).picture();
     assert!([BOARD, WHITE, BLACK].iter().all(|&kind| {
         indices(&all).flatten().filter(|&index| viewed.pieces[index].mask == kind).count() > 500
     }));
-    let shadows = |sets: &[&str]| bits(&picture(&[sets, &["show=shadow"]].concat()));
+    let shadows = |sets: &[&str]| bits(&chapter().sets(sets).sets(&["show=shadow"]).picture());
     let (all, all_shadows) = (bits(&all), shadows(&FEW));
     for (sees, hidden) in [("white", WHITE), ("black", BLACK)]
         .map(|(name, bit)| (format!("camera sees=all but {name}"), bit))
@@ -34,8 +34,9 @@ fn a_mask_hides_from_the_camera_and_keeps_the_shadow() {
         assert!(same.len() > 5000 && same.iter().all(|&i| shadows[i] == all_shadows[i]));
     }
     // And without their shadows, more is lit, and nothing is darker.
-    let lit =
-        |set: &str| picture(&[&FEW[..], &[set, "camera sees=the board", "show=shadow"]].concat());
+    let lit = |set: &str| {
+        chapter().sets(&FEW).sets(&[set, "camera sees=the board", "show=shadow"]).picture()
+    };
     let (everything, board) = (lit("shadows of=everything"), lit("shadows of=the board"));
     let pairs = || everything.pixels.iter().zip(&board.pixels);
     assert!(pairs().all(|(all, few)| all[0] <= few[0]));

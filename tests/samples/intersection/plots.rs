@@ -9,7 +9,7 @@ use serde_json::Map;
 use super::errors::Errors;
 use super::rungs::{RUNGS, with_t};
 use super::shapes::SceneKind;
-use super::{picture, shapes};
+use super::{chapter, shapes};
 use run::expected;
 use run::plot::{Shown, draw_panels};
 
@@ -32,7 +32,7 @@ fn errors_at_every_distance() {
                 &format!("sphere rung={rung}"),
             ];
             let camera = shapes::camera(SceneKind::OneSphere, Camera::default(), 1, distance);
-            let shown = picture(&size, &[&sets[..], &["show=ray direction"]].concat());
+            let shown = chapter(&size).sets(&sets).sets(&["show=ray direction"]).picture();
             let mut errors = Errors::default();
             let mut map = Vec::new();
             for (ray, t) in with_t(&camera, &shown) {
@@ -53,7 +53,7 @@ fn errors_at_every_distance() {
                 continue;
             };
             let label = format!("{rung}, distance {distance}");
-            rows[2 * row].push((label, picture(&size, &sets)));
+            rows[2 * row].push((label, chapter(&size).sets(&sets).picture()));
             let map = Picture { width: SIDE, height: SIDE, pixels: map };
             rows[2 * row + 1].push((errors.label(), map));
         }

@@ -10,7 +10,7 @@ use serde_json::{Map, json};
 use super::errors::Errors;
 use super::reference_shapes::ReferenceShapes;
 use super::shapes::SceneKind;
-use super::{NAME, SIZE, picture, shapes};
+use super::{NAME, SIZE, chapter, shapes};
 use common::app::Picture;
 use run::primary_hits::{answer, rays};
 use run::{expected, render};
@@ -35,7 +35,7 @@ fn lone_sphere(rung: &str, distance: f32) -> Errors {
     let camera = shapes::camera(SceneKind::OneSphere, chess, 1, distance);
     let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
     let mut errors = Errors::default();
-    for (ray, t) in with_t(&camera, &picture(SIZE, &sets)) {
+    for (ray, t) in with_t(&camera, &chapter(SIZE).sets(&sets).picture()) {
         errors.add(t, sphere.intersect_exact(&ray).map(|hit| hit.to_f64().t));
     }
     errors
@@ -74,8 +74,8 @@ fn the_hosts_c_keeps_a_planet() {
     for rung in RUNGS {
         let set = format!("sphere rung={rung}");
         let sets = ["scene=planet", &set];
-        let hits = picture(SIZE, &[&sets[..], &["show=hit"]].concat());
-        let directions = picture(SIZE, &[&sets[..], &["show=ray direction"]].concat());
+        let hits = chapter(SIZE).sets(&sets).sets(&["show=hit"]).picture();
+        let directions = chapter(SIZE).sets(&sets).sets(&["show=ray direction"]).picture();
         let mut errors = Errors::default();
         for (ray, pixel) in rays(&camera, &directions).zip(&hits.pixels) {
             // The planet is sphere 0; what stands on it hides some of it.
@@ -105,7 +105,7 @@ fn from_inside_the_far_side_is_hit() {
     for rung in RUNGS {
         let set = format!("sphere rung={rung}");
         let sets = [&["scene=one sphere", &set, "show=ray direction"], &look[..]].concat();
-        for (ray, t) in with_t(&camera, &picture("40x25", &sets)) {
+        for (ray, t) in with_t(&camera, &chapter("40x25").sets(&sets).picture()) {
             let exact = sphere.intersect_exact(&ray).unwrap().to_f64().t;
             let error = ulp_error(t.expect("a wall all around"), exact);
             assert!(error <= 8.0, "{rung}: {error} ULP on {ray:?}");
@@ -121,7 +121,7 @@ fn from_inside_the_far_side_is_hit() {
     for rung in ["reciprocal", "division"] {
         let set = format!("box rung={rung}");
         let sets = [&["scene=grid", "count=8", &set, "show=ray direction"], &look[..]].concat();
-        for (ray, t) in with_t(&camera, &picture("40x25", &sets)) {
+        for (ray, t) in with_t(&camera, &chapter("40x25").sets(&sets).picture()) {
             let error = ulp_error(t.expect("a wall all around"), exact.hit(&ray, id).unwrap());
             assert!(error <= 4.0, "{rung}: {error} ULP on {ray:?}");
         }
@@ -143,8 +143,8 @@ fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
         let (mut hits, mut along) = (0, 0);
         let rung = format!("box rung={rung}");
         let sets = [&["scene=grid", &rung], &look.each_ref().map(String::as_str)[..]].concat();
-        let found = picture("31x61", &[&sets[..], &["show=hit"]].concat());
-        let directions = picture("31x61", &[&sets[..], &["show=ray direction"]].concat());
+        let found = chapter("31x61").sets(&sets).sets(&["show=hit"]).picture();
+        let directions = chapter("31x61").sets(&sets).sets(&["show=ray direction"]).picture();
         let column = rays(&camera, &directions).zip(&found.pixels).skip(15).step_by(31);
         for (ray, pixel) in column {
             assert_eq!(ray.origin.x, WALL);
@@ -181,7 +181,7 @@ fn the_margin_offers_every_hit() {
     let sets = ["scene=dust", "sphere rung=offered", "show=ray direction"];
     let count = |margin: &str| {
         let (mut hits, mut never) = (0, 0);
-        for (ray, t) in with_t(&camera, &picture("160x100", &[&sets[..], &[margin]].concat())) {
+        for (ray, t) in with_t(&camera, &chapter("160x100").sets(&sets).sets(&[margin]).picture()) {
             if exact.closest(&ray).is_some() {
                 hits += 1;
                 never += usize::from(t.is_none());

@@ -4,7 +4,7 @@ use common::app::Picture;
 
 use serde_json::Map;
 
-use super::{SMALL, run};
+use super::{SMALL, chapter};
 use crate::sequences::points::hash;
 use run::{bits, expected, render};
 
@@ -20,9 +20,9 @@ fn add(mean: f32, value: f32, count: u32) -> f32 {
 
 #[test]
 fn the_mean_on_the_device_is_this_recurrence() {
-    let single = |frame: u32| run(SMALL, frame + 1, &["accumulate=off"]);
+    let single = |frame: u32| chapter(SMALL).frames(frame + 1).sets(&["accumulate=off"]).picture();
     let singles: Vec<Picture> = (0..8).map(single).collect();
-    let means = run(SMALL, 8, &[]);
+    let means = chapter(SMALL).frames(8).picture();
     let (mut equal, mut largest) = (0, 0f32);
     for (i, mean) in means.pixels.iter().enumerate() {
         for (channel, &mean) in mean.iter().enumerate() {
@@ -51,7 +51,7 @@ fn the_mean_on_the_device_is_this_recurrence() {
 fn on_the_device_a_thousand_equal_frames_are_one() {
     // A running sum divided by its count fails here: a thousand times 0.1 is 99.99905 in 32 bits.
     let one = render("02_basic", SMALL, &[]).picture;
-    assert_eq!(bits(&run(SMALL, 1000, &["jitter=off"])), bits(&one));
+    assert_eq!(bits(&chapter(SMALL).frames(1000).sets(&["jitter=off"]).picture()), bits(&one));
 }
 
 /// A mean in f32, by the recurrence; in f64, to compare with; and a running sum in f32.

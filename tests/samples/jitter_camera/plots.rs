@@ -3,7 +3,7 @@
 
 use serde_json::Map;
 
-use super::{error, offsets, part_below, run};
+use super::{chapter, error, offsets, part_below};
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 use run::{expected, render};
 
@@ -19,8 +19,13 @@ fn filters() {
     };
     let y = Axis { label: "", ticks: &[0.0, 0.5, 1.0, 1.5, 2.0], logarithmic: false };
     let chart = |title: &'static str| {
-        let offsets =
-            offsets(&run("480x300", 1, &[&format!("filter={title}"), "show=ray direction"]));
+        let offsets = offsets(
+            &chapter("480x300")
+                .frames(1)
+                .set("filter", title)
+                .sets(&["show=ray direction"])
+                .picture(),
+        );
         let step = 0.05;
         let middles: Vec<f64> = (-30..30).map(|i| (f64::from(i) + 0.5) * step).collect();
         let drawn = |&middle: &f64| {
@@ -53,11 +58,12 @@ fn filters() {
 #[ignore = "by hand: draws docs/images/04_samples.png"]
 fn samples() {
     const SIZE: &str = "960x600";
-    let centre = ("through the centre".to_owned(), run(SIZE, 1, &["jitter=off"]));
+    let centre =
+        ("through the centre".to_owned(), chapter(SIZE).frames(1).sets(&["jitter=off"]).picture());
     let means = [1, 4, 16, 64].map(|frames| {
         let label =
             if frames == 1 { "1 jittered ray".to_owned() } else { format!("{frames} rays") };
-        (label, run(SIZE, frames, &[]))
+        (label, chapter(SIZE).frames(frames).picture())
     });
     let rows = [[670, 223, 63, 63], [340, 108, 63, 63]].map(|area| {
         let shown = |(label, picture)| Shown { label: String::clone(label), picture, area };
@@ -82,7 +88,8 @@ fn errors() {
         // The same mean from points that reach it sooner.
         let reference = ["--frames", "2048", "--set", &set];
         let reference = render("37_sequences", SIZE, &reference).picture;
-        let errors = FRAMES.map(|frames| error(&run(SIZE, frames, &[&set]), &reference));
+        let errors = FRAMES
+            .map(|frames| error(&chapter(SIZE).frames(frames).sets(&[&set]).picture(), &reference));
         let slope = (errors[4] / errors[1]).log2() / 6.0;
         held.extend(
             FRAMES.iter().zip(errors).map(|(n, error)| (format!("{filter}.{n}"), error.into())),

@@ -3,7 +3,7 @@
 
 use serde_json::Map;
 
-use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
+use super::{HIGH, RULES, SETTINGS, Setting, Tally, chapter};
 use run::expected;
 use run::plot::{Shown, draw_panels};
 
@@ -14,7 +14,7 @@ const PLACES: [&str; 4] = ["0.001", "1", "1000", "moved"];
 #[ignore = "by hand: draws docs/images/26_origins.png"]
 fn origins() {
     let show = |place: [&str; 2], rule: &str| {
-        picture("640x400", &[&place[..], &[&format!("origin={rule}")]].concat())
+        chapter("640x400").sets(&place).set("origin", rule).picture()
     };
     let pictures = SETTINGS.map(|(place, _)| RULES.map(|rule| show(place, rule)));
     let row = |place: usize| {
@@ -35,7 +35,7 @@ fn leaks() {
         let rule = RULES[number];
         let close = ["camera target=0.5,0.25,3.5", "field of view=7", &format!("origin={rule}")];
         let label = format!("O{number} {rule}, {}", PLACES[setting]);
-        (label, picture("320x320", &[&SETTINGS[setting].0[..], &close].concat()))
+        (label, chapter("320x320").sets(&SETTINGS[setting].0[..]).sets(&close).picture())
     };
     let rows = [[(0, 1), (0, 2), (3, 4)], [(0, 5), (1, 5), (3, 5)]].map(|row| row.map(show));
     draw_panels("26_leaks.png", 1, &rows.each_ref().map(|row| Shown::row(row)));

@@ -2,19 +2,18 @@
 
 use common::app::Picture;
 use glam::{Quat, Vec3};
-use run::{Near, bits, device, expected, render, same_answers, same_colors};
+use run::{Chapter, Near, bits, device, expected, same_answers, same_colors};
 use serde_json::{Value, json};
 
 use super::shutter::{Between, Pose, between};
-use super::{NAME, picture};
+use super::{NAME, chapter};
 
 /// A view of frame 932 in which 14's flag and its shadow are not.
 const VIEW: [&str; 4] =
     ["frame=932", "camera eye=-4,4.6,9", "camera target=-2.2,1.2,0", "field of view=20"];
 
 fn seen_by(name: &str, sets: &[&str]) -> Picture {
-    let sets = VIEW.iter().chain(sets).flat_map(|&set| ["--set", set]);
-    render(name, "96x60", &sets.collect::<Vec<_>>()).picture
+    Chapter::new(name).size("96x60").sets(&VIEW).sets(sets).picture()
 }
 
 #[test]
@@ -43,8 +42,8 @@ fn without_a_shutter_it_is_its_parent_to_the_bit() {
 /// Samples are all the same if nothing is under way, and so is their mean.
 #[test]
 fn a_board_at_rest_is_as_sharp_as_with_one_sample() {
-    let [one, many] =
-        ["samples=1", "samples=64"].map(|samples| picture("96x60", &[], &["frame=2", samples]));
+    let [one, many] = ["samples=1", "samples=64"]
+        .map(|samples| chapter("96x60").sets(&["frame=2", samples]).picture());
     assert!(bits(&one) == bits(&many));
 }
 
@@ -52,21 +51,21 @@ fn a_board_at_rest_is_as_sharp_as_with_one_sample() {
 fn a_frame_is_the_same_bytes_whether_played_or_jumped_to() {
     let sets = |frame| [frame, "samples=4", "shutter=2"];
     for method in ["method=swept", "method=moments"] {
-        let jumped = picture("96x60", &[], &[&sets("frame=934")[..], &[method]].concat());
-        let played =
-            picture("96x60", &["--frames", "5"], &[&sets("frame=930")[..], &[method]].concat());
+        let jumped = chapter("96x60").sets(&sets("frame=934")).sets(&[method]).picture();
+        let played = chapter("96x60").frames(5).sets(&sets("frame=930")).sets(&[method]).picture();
         assert!(bits(&jumped) == bits(&played), "{method}");
     }
     // A hit that is refused must leave the accepted one as it was, in whatever order both come.
     for method in ["method=swept", "method=moments"] {
         let sets = [&sets("frame=934")[..], &[method]].concat();
-        let [one, other] = [&[][..], &["--unordered"]].map(|order| picture("96x60", order, &sets));
+        let [one, other] = [&[][..], &["--unordered"]]
+            .map(|order| chapter("96x60").with(order).sets(&sets).picture());
         same_answers(&format!("{method} --unordered"), NAME, &one, &other);
     }
     // At one moment, both methods see the same shadows.
     let one = [&sets("frame=934")[..], &["moments=1", "times=middle", "show=shadow"]].concat();
     let [moments, swept] = ["method=moments", "method=swept"]
-        .map(|method| picture("240x150", &[], &[&one[..], &[method]].concat()));
+        .map(|method| chapter("240x150").sets(&one).sets(&[method]).picture());
     let differ = moments.pixels.iter().zip(&swept.pixels).filter(|(a, b)| a != b).count();
     // Two triangle tests may differ at edges of shadows alone; llvmpipe's is that of the chapter.
     let most =
@@ -107,7 +106,7 @@ fn the_shrunken_knight_is_seen() {
     let area = |sets: &[&str]| {
         let sets =
             [&["frame=934", "turns=3", "shutter=2", "times=middle", "show=smear"], sets].concat();
-        let seen = picture("120x75", &[], &sets);
+        let seen = chapter("120x75").sets(&sets).picture();
         seen.pixels.iter().filter(|pixel| pixel[0] == 1.0).count()
     };
     for method in ["method=swept", "method=moments"] {
@@ -120,15 +119,14 @@ fn the_shrunken_knight_is_seen() {
     assert!(swept.abs_diff(once) <= 2, "{swept} {once}: more than rounding at an outline");
 }
 
-fn chapter(sets: &[&str]) -> Value {
-    let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    render(NAME, "240x150", &sets.collect::<Vec<_>>()).report["chapter"].clone()
+fn counted(sets: &[&str]) -> Value {
+    chapter("240x150").sets(sets).run().report["chapter"].clone()
 }
 
 /// Counts of both methods, in one frame of 16 samples.
 #[test]
 fn methods_cost_what_is_counted() {
-    let of = |method| chapter(&["frame=934", "shutter=2", "count calls=on", method]);
+    let of = |method| counted(&["frame=934", "shutter=2", "count calls=on", method]);
     let (moments, swept) = (of("method=moments"), of("method=swept"));
     for (name, counted) in [("moments", &moments), ("swept", &swept)] {
         println!("{name}: {counted}");
@@ -153,7 +151,7 @@ fn methods_cost_what_is_counted() {
 #[ignore = "nightly: 1,024 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn moments_come_near_to_the_smear() {
     let of = |sets: &[&str]| {
-        picture("96x60", &[], &[&["frame=934", "shutter=2", "show=smear"], sets].concat())
+        chapter("96x60").sets(&["frame=934", "shutter=2", "show=smear"]).sets(sets).picture()
     };
     let exact = of(&["samples=1024"]);
     let errors = ["1", "2", "4", "8"].map(|moments| {
@@ -186,7 +184,7 @@ fn error(picture: &Picture, exact: &Picture) -> f64 {
 fn strata_are_better_than_chance() {
     let of = |samples: u32, times: &str| {
         let samples = format!("samples={samples}");
-        picture("96x60", &[], &["frame=934", "shutter=2", "show=smear", &samples, times])
+        chapter("96x60").sets(&["frame=934", "shutter=2", "show=smear", &samples, times]).picture()
     };
     let exact = of(2048, "times=strata");
     let mut held = json!({});

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use glam::{DQuat, Quat, Vec3};
-use run::{bits, evaluate, render};
+use run::{bits, evaluate};
 
 use super::leg::{Motion, UNDER_WAY};
 use super::shutter::{Between, Pose, between};
-use super::{NAME, legs};
+use super::{chapter, legs};
 
 const METHODS: [&str; 2] = ["method=swept", "method=moments"];
 
@@ -22,9 +22,7 @@ fn promoted(folder: &Path, lift: u32, becomes: &str) -> String {
 }
 
 fn seen(scene: &str, sets: &[&str]) -> Vec<[u32; 4]> {
-    let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    let arguments: Vec<_> = ["--scene", scene].into_iter().chain(sets).collect();
-    bits(&render(NAME, "96x60", &arguments).picture)
+    bits(&chapter("96x60").scene(scene).sets(sets).picture())
 }
 
 /// The shutter opens in the last frame of the way and closes after it: the pawn is not a queen yet, to the bit and in

@@ -6,12 +6,12 @@ use common::app::Picture;
 use common::model::obj;
 use common::scene::{Camera, assets};
 use glam::{DQuat, DVec3};
-use run::{expected, render};
+use run::expected;
 use serde_json::json;
 
 use super::leg::Motion;
 use super::motion::Placed;
-use super::{NAME, ball, legs};
+use super::{ball, chapter, legs};
 
 const BALL: f64 = 0.5;
 const SHUTTER: f64 = 2.0;
@@ -28,10 +28,7 @@ fn ends(motion: &Motion, frame: u32) -> [Placed; 2] {
 /// The rays of all pixels, and what part of the shutter's time each has seen what is under way.
 fn seen(file: &str, size: &str, sets: &[&str]) -> (Vec<(DVec3, DVec3)>, Vec<f64>) {
     let of = |show: &str| -> Picture {
-        let sets = [&["shutter=2", show], sets].concat();
-        let sets = sets.iter().flat_map(|&set| ["--set", set]);
-        let arguments: Vec<_> = ["--scene", file].into_iter().chain(sets).collect();
-        render(NAME, size, &arguments).picture
+        chapter(size).scene(file).sets(&["shutter=2", show]).sets(sets).picture()
     };
     let eye = camera().eye.as_vec3().as_dvec3();
     let directions = of("show=ray direction");

@@ -9,7 +9,7 @@ use common::app::Picture;
 use common::model::Texture;
 use common::scene::{Mesh, Scene};
 use run::layer::Layer;
-use run::{refused, render, root, same_answers, same_colors};
+use run::{Chapter, refused, render, root, same_answers, same_colors, set_arguments};
 
 use super::alpha::Alpha;
 use super::classify::{self, Rule};
@@ -106,7 +106,7 @@ fn a_device_gets_the_states_that_the_shader_reads() {
     }
     let scene = Scene::chess().unwrap();
     let (mesh, texture) = screen(&scene);
-    let parent = render(PARENT, SIZE, &super::settings(&BEHIND)).picture;
+    let parent = Chapter::new(PARENT).size(SIZE).sets(&BEHIND).picture();
     for (level, rule, word) in [
         (0, Rule::Conservative, "conservative"),
         (3, Rule::Conservative, "conservative"),
@@ -115,7 +115,7 @@ fn a_device_gets_the_states_that_the_shader_reads() {
     ] {
         let sets = [format!("level={level}"), format!("rule={word}"), "way=device".to_owned()];
         let sets = sets.each_ref().map(String::as_str);
-        let told = told(6, &super::settings(&sets));
+        let told = told(6, &set_arguments(&sets));
         assert_eq!(told.errors, "");
         assert!(told.micromaps() == [(level, packed(mesh, texture, level, rule))], "{level}");
         let [named] = told.of("level") else { panic!("one bottom level has a micromap") };
@@ -133,13 +133,13 @@ fn a_level_that_is_too_fine_for_the_device_falls_back_to_its_finest_and_says_so(
     }
     let scene = Scene::chess().unwrap();
     let (mesh, texture) = screen(&scene);
-    let told = told(3, &super::settings(&["way=device", "show=hit"]));
+    let told = told(3, &set_arguments(&["way=device", "show=hit"]));
     assert!(told.micromaps() == [(3, packed(mesh, texture, 3, Rule::Conservative))]);
     let line = told.errors.trim_end();
     assert!(line.starts_with("warning: llvmpipe"), "{line}");
     assert!(line.ends_with("takes micromaps up to level 3: it gets those, not 5"), "{line}");
-    let hits = render(PARENT, SIZE, &super::settings(&[&["show=hit"], &BEHIND[..]].concat()));
-    same_answers("hits", NAME, &told.picture, &hits.picture);
+    let hits = Chapter::new(PARENT).size(SIZE).sets(&["show=hit"]).sets(&BEHIND).picture();
+    same_answers("hits", NAME, &told.picture, &hits);
 }
 
 #[test]
@@ -160,12 +160,12 @@ fn where_it_is_not_asked_for_nothing_is_built_for_the_device() {
         return;
     }
     let sets = ["show=states", "level=4"];
-    let shader = told(6, &super::settings(&sets));
+    let shader = told(6, &set_arguments(&sets));
     assert_eq!(shader.lines.keys().collect::<Vec<_>>(), ["alive"]);
-    let none = told(6, &super::settings(&["level=none", "way=device"]));
+    let none = told(6, &set_arguments(&["level=none", "way=device"]));
     assert_eq!(none.lines.keys().collect::<Vec<_>>(), ["alive"]);
     // The states are shown by the scene's own bottom levels: a device passes through transparent parts.
-    let device = told(6, &super::settings(&[&sets[..], &["way=device"]].concat()));
+    let device = told(6, &set_arguments(&[&sets[..], &["way=device"]].concat()));
     assert_eq!(device.of("pipeline"), [""; 0]);
     same_colors("states", NAME, &device.picture, &shader.picture);
 }
@@ -200,7 +200,7 @@ fn each_mesh_with_holes_has_a_micromap_of_its_own() {
     let scene = Scene::open(file.as_ref()).unwrap();
     for level in [0, 1, 4] {
         let set = format!("level={level}");
-        let arguments = super::settings(&["way=device", &set]);
+        let arguments = set_arguments(&["way=device", &set]);
         let told = told(6, &[&arguments[..], &["--scene", &file]].concat());
         let with_holes = scene.model.meshes.iter().filter_map(|mesh| {
             let texture = scene.model.materials[mesh.material].opacity_texture?;
@@ -227,6 +227,6 @@ fn a_triangle_that_is_offered_twice_has_its_states_twice() {
     let scene = Scene::chess().unwrap();
     let (mesh, _) = screen(&scene);
     let sets = [&["way=device"], &BEFORE[..]].concat();
-    let told = told(5, &[&super::settings(&sets)[..], &["--arithmetic", "worst"]].concat());
+    let told = told(5, &[&set_arguments(&sets)[..], &["--arithmetic", "worst"]].concat());
     assert_eq!(names_its_own(&told.of("level")[0], mesh), 2 * mesh.triangles.len());
 }

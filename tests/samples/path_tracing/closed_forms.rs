@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::json;
 
-use super::{Estimate, brightness, picture, picture_by_chance};
+use super::{Estimate, brightness, chapter, picture_by_chance};
 use run::{bits, expected};
 
 /// The square that shines, in the scene of each name.
@@ -98,12 +98,15 @@ fn squares_light_each_other_as_their_form_factors_say() {
 #[test]
 fn a_white_furnace_is_its_sky() {
     let sets = ["scene=furnace", "depth=256", "roulette=off"];
-    let shown = picture("96x60", 4, &sets);
+    let shown = chapter("96x60").frames(4).sets(&sets).picture();
     // Each path brings exactly 1, whichever way it takes: no chance, no rounding.
     let grey = shown.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
     assert_eq!(grey, 0, "pixels of the furnace that are not white");
     // They are long enough to see many turns.
-    let rays = picture("96x60", 1, &["scene=furnace", "depth=256", "roulette=off", "show=rays"]);
+    let rays = chapter("96x60")
+        .frames(1)
+        .sets(&["scene=furnace", "depth=256", "roulette=off", "show=rays"])
+        .picture();
     let longest = brightness(&rays).into_iter().fold(0.0, f64::max);
     println!("up to {longest} rays a path");
     assert!(longest > 15.0 && longest < 256.0, "{longest}");
@@ -111,7 +114,8 @@ fn a_white_furnace_is_its_sky() {
 
 #[test]
 fn with_roulette_it_is_its_sky_within_the_confidence() {
-    let shown = brightness(&picture("96x60", 4, &["scene=furnace", "depth=256"]));
+    let shown =
+        brightness(&chapter("96x60").frames(4).sets(&["scene=furnace", "depth=256"]).picture());
     let estimate = Estimate::of(&shown);
     estimate.is(1.0, "white furnace with roulette");
     assert!(estimate.confidence < 0.01);
@@ -122,7 +126,8 @@ fn polish_creates_and_swallows_nothing() {
     for roulette in ["on", "off"] {
         let roulette = format!("roulette={roulette}");
         let sets = ["scene=polished furnace", "depth=256", &roulette];
-        let estimate = Estimate::of(&brightness(&picture("96x60", 16, &sets)));
+        let estimate =
+            Estimate::of(&brightness(&chapter("96x60").frames(16).sets(&sets).picture()));
         estimate.is(1.0, &format!("polished furnace, {roulette}"));
         assert!(estimate.confidence < 0.01);
     }
@@ -132,7 +137,8 @@ fn polish_creates_and_swallows_nothing() {
 fn a_depth_leaves_out_what_the_series_says() {
     for depth in [0, 1, 2, 5, 16] {
         let set = format!("depth={depth}");
-        let shown = picture("32x20", 2, &["scene=closed room", "roulette=off", &set]);
+        let shown =
+            chapter("32x20").frames(2).sets(&["scene=closed room", "roulette=off", &set]).picture();
         // 1/2 + 1/4 + … + 1/2^(depth + 1), each exact in 32 bits.
         let expected = 1.0 - 0.5f32.powi(depth + 1);
         assert!(shown.pixels.iter().all(|pixel| pixel[..3] == [expected; 3]), "{depth}");
@@ -158,7 +164,8 @@ fn roulette_ends_a_path_that_has_no_end_and_keeps_its_mean() {
 
 #[test]
 fn a_seed_gives_other_paths_of_the_same_mean() {
-    let of = |seed: &str| picture("64x64", 16, &["scene=parallel squares", seed]);
+    let of =
+        |seed: &str| chapter("64x64").frames(16).sets(&["scene=parallel squares", seed]).picture();
     let [a, b] = ["seed=0", "seed=1"].map(of);
     assert_ne!(bits(&a), bits(&b));
     for shown in [a, b] {

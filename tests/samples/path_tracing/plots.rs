@@ -5,7 +5,7 @@ use common::app::Picture;
 use serde_json::Map;
 
 use super::closed_forms::{ROOM_VARIANCE, SQUARES, form_factors};
-use super::{Estimate, brightness, colors, error, picture, picture_by_chance};
+use super::{Estimate, brightness, chapter, colors, error, picture_by_chance};
 use run::expected;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 
@@ -16,7 +16,10 @@ fn light() {
         [("direct", "light straight to what the eye sees"), ("bounced", "light by bounces")];
     let shows = [shows[0], shows[1], ("picture", "both")];
     let show = |(show, label): (&str, &str)| {
-        (label.to_owned(), picture("320x200", 64, &[&format!("show={show}"), "clamp=8"]))
+        (
+            label.to_owned(),
+            chapter("320x200").frames(64).set("show", show).sets(&["clamp=8"]).picture(),
+        )
     };
     draw_panels("11_light.png", 1, &[Shown::row(&shows.map(show))]);
 }
@@ -27,14 +30,17 @@ fn furnace() {
     let show = |depth: u32| {
         let label = if depth == 1 { "1 bounce".to_owned() } else { format!("{depth} bounces") };
         let sets = ["scene=furnace", "roulette=off", &format!("depth={depth}")];
-        (label, picture("240x150", 16, &sets))
+        (label, chapter("240x150").frames(16).sets(&sets).picture())
     };
     draw_panels("11_furnace.png", 1, &[Shown::row(&[1, 2, 5, 256].map(show))]);
 }
 
 /// A maker of pictures, and the name of its paths' numbers.
 type Numbers = (&'static str, fn(&str, u32, &[&str]) -> Picture);
-const NUMBERS: [Numbers; 2] = [("random", picture_by_chance), ("Sobol", picture)];
+const NUMBERS: [Numbers; 2] = [
+    ("random", picture_by_chance),
+    ("Sobol", |size, frames, sets| chapter(size).frames(frames).sets(sets).picture()),
+];
 const FRAMES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
 
 /// The error of a scene whose light is known, for each kind of numbers and number of samples.
@@ -116,8 +122,9 @@ const SMALL: &str = "96x60";
 #[ignore = "by hand: prints what stopping at a depth costs in error"]
 fn biases() {
     // The random numbers are the same: pictures differ only by what was left out, not by chance.
-    let of =
-        |sets: &[&str]| picture(SMALL, 64, &[&["roulette=off", "depth=32"][..], sets].concat());
+    let of = |sets: &[&str]| {
+        chapter(SMALL).frames(64).sets(&["roulette=off", "depth=32"]).sets(sets).picture()
+    };
     let all = of(&[]);
     let mut held = Map::new();
     for depth in [0, 1, 2, 4, 8, 16] {
@@ -131,8 +138,8 @@ fn biases() {
 #[test]
 #[ignore = "by hand: prints the noise of roulette and clamps"]
 fn noise() {
-    let reference = picture(SMALL, 512, &["depth=32", "seed=1"]);
-    let of = |sets: &[&str]| picture(SMALL, 16, &[&["depth=32"][..], sets].concat());
+    let reference = chapter(SMALL).frames(512).sets(&["depth=32", "seed=1"]).picture();
+    let of = |sets: &[&str]| chapter(SMALL).frames(16).sets(&["depth=32"]).sets(sets).picture();
     let mut held = Map::new();
     for roulette in ["off", "on"] {
         let error = relative(&of(&[&format!("roulette={roulette}")]), &reference);
@@ -157,7 +164,7 @@ fn noise() {
 fn sums() {
     let mut held = Map::new();
     for frames in [100, 1000, 10_000] {
-        let of = |sum: &str| picture("8x5", frames, &[&format!("sum={sum}")]);
+        let of = |sum: &str| chapter("8x5").frames(frames).set("sum", sum).picture();
         let [integers, floats] = ["integers", "floats"].map(of);
         let offs = colors(&floats).zip(colors(&integers)).map(|(f, i)| (f / i - 1.0).abs());
         let most = offs.fold(0.0, f64::max);

@@ -3,8 +3,8 @@
 use common::app::Picture;
 use serde_json::{Map, Value};
 
-use super::{FOOTPRINTS, NAME, seen, view};
-use run::{expected, render};
+use super::{FOOTPRINTS, chapter, seen, view};
+use run::expected;
 
 const DISTANCES: [f64; 4] = [5.0, 20.0, 80.0, 320.0];
 const ANGLES: [f64; 3] = [90.0, 30.0, 10.0];
@@ -91,9 +91,8 @@ fn time_by_distance_and_angle() {
         for angle in ANGLES {
             let from = view(distance, angle, 0.0);
             let compare = format!("footprint={}", FOOTPRINTS.join("|"));
-            let mut arguments = vec!["--frames", "15", "--compare", &compare];
-            arguments.extend(from.iter().flat_map(|set| ["--set", set]));
-            let report = render(NAME, "480x300", &arguments).report;
+            let compared = chapter("480x300").frames(15).with(&["--compare", &compare]);
+            let report = compared.sets(&from).run().report;
             for (i, footprint) in FOOTPRINTS.iter().enumerate() {
                 let ratio =
                     report["comparison"]["values"][i]["ratio"]["median"].as_f64().expect("a ratio");

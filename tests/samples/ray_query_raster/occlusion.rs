@@ -7,26 +7,24 @@ use reference::occlusion::standing_box;
 use serde_json::json;
 
 use run::primary_hits::{answer, rays};
-use run::{Run, expected, render, root};
+use run::{Run, expected, root};
 
-use super::NAME;
+use super::{NAME, chapter};
 
 const SIZE: &str = "96x60";
 /// The corners of the box in `box_on_plane.obj`.
 const BOX: [DVec3; 2] = [DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 1.5, 1.0)];
 
-fn run_of(sets: &[&str], frames: &str) -> Run {
+fn run_of(sets: &[&str], frames: u32) -> Run {
     let scene = root().join("samples/assets/box_on_plane.obj");
-    let scene = ["--scene", scene.to_str().unwrap(), "--frames", frames];
     let view = ["camera eye=5,4,6", "camera target=0,0.2,0", "field of view=45"];
-    let sets = view.iter().chain(sets).flat_map(|&set| ["--set", set]);
-    render(NAME, SIZE, &scene.into_iter().chain(sets).collect::<Vec<_>>())
+    chapter(SIZE).scene(scene).frames(frames).sets(&view).sets(sets).run()
 }
 
 /// The part of the sky that each pixel of the plane sees: its number, and the exact part.
 fn exact() -> Vec<(usize, f64)> {
     let camera = Camera::new(DVec3::new(5.0, 4.0, 6.0), DVec3::new(0.0, 0.2, 0.0), 45.0);
-    let show = |view| run_of(&[view, "occlusion rays=0"], "1").picture;
+    let show = |view| run_of(&[view, "occlusion rays=0"], 1).picture;
     let (hits, directions) = (show("show=hit"), show("show=ray direction"));
     let pixels = rays(&camera, &directions).zip(&hits.pixels).enumerate();
     let plane = pixels.filter_map(|(pixel, (ray, hit))| {
@@ -51,7 +49,7 @@ fn the_mean_of_many_rays_is_the_closed_form() {
     let pixels = exact();
     assert!(pixels.len() > 2000, "{}", pixels.len());
     // With one ray a pixel each is open or not, and independent of its neighbours.
-    let picture = run_of(&["show=ambient occlusion", "occlusion rays=1"], "1").picture;
+    let picture = run_of(&["show=ambient occlusion", "occlusion rays=1"], 1).picture;
     let found: f64 = pixels.iter().map(|&(pixel, _)| f64::from(picture.pixels[pixel][0])).sum();
     let expected: f64 = pixels.iter().map(|(_, open)| open).sum();
     let deviation = pixels.iter().map(|(_, open)| open * (1.0 - open)).sum::<f64>().sqrt();
@@ -76,7 +74,7 @@ fn the_error_falls_faster_than_by_the_root_of_the_rays() {
     held.insert("pixels".to_owned(), pixels.len().into());
     for count in [1u32, 4, 16, 64, 256] {
         let set = format!("occlusion rays={count}");
-        let run = run_of(&["show=ambient occlusion", &set], "3");
+        let run = run_of(&["show=ambient occlusion", &set], 3);
         let error = root_mean_square(&pixels, &run.picture);
         let independent = one / f64::from(count).sqrt();
         println!("{count}: {error:.5}, independent {independent:.5}");

@@ -9,10 +9,10 @@ use reference::Ray;
 use reference::scene::Scene as Exact;
 use serde_json::json;
 
+use run::expected;
 use run::primary_hits::{answer, rays, reference};
-use run::{expected, render};
 
-use super::NAME;
+use super::{NAME, chapter};
 
 /// Width and height.
 type Size = (u32, u32);
@@ -138,10 +138,8 @@ impl View<'_> {
         ];
         let size = format!("{}x{}", self.size.0, self.size.1);
         let shown = |view: &str| {
-            let sets = settings.iter().map(String::as_str).chain(self.sets.iter().copied());
-            let sets = sets.chain([view]).flat_map(|set| ["--set", set]);
-            let arithmetic = ["--arithmetic", self.arithmetic];
-            render(NAME, &size, &arithmetic.into_iter().chain(sets).collect::<Vec<_>>()).picture
+            let chapter = chapter(&size).arithmetic(self.arithmetic);
+            chapter.sets(&settings).sets(self.sets).sets(&[view]).picture()
         };
         let rays: Vec<Ray> = rays(&self.camera, &shown("show=ray direction")).collect();
         let projection = Projection { camera: self.camera, size: self.size };

@@ -4,7 +4,7 @@
 use common::app::Picture;
 use serde_json::Map;
 
-use super::picture;
+use super::chapter;
 use run::expected;
 use run::plot::{Shown, draw_panels};
 
@@ -13,7 +13,7 @@ use run::plot::{Shown, draw_panels};
 fn depths() {
     let show = |depth: u32| {
         let close = ["camera target=-2.5,0.75,1.5", "field of view=16", "minimum contribution=0"];
-        let shown = picture("240x400", &[&close[..], &[&format!("depth={depth}")]].concat());
+        let shown = chapter("240x400").sets(&close).set("depth", depth).picture();
         (format!("depth {depth}"), shown)
     };
     draw_panels("06_depths.png", 1, &[Shown::row(&[0, 1, 2, 8].map(show))]);
@@ -32,7 +32,7 @@ fn error(a: &Picture, b: &Picture) -> f64 {
 fn table_of_depths() {
     let show = |depth: u32, minimum: &str| {
         let minimum = format!("minimum contribution={minimum}");
-        picture("960x600", &[&format!("depth={depth}"), &minimum])
+        chapter("960x600").set("depth", depth).sets(&[&minimum]).picture()
     };
     let deepest = show(8, "0");
     let mut errors = Map::new();

@@ -2,7 +2,7 @@
 
 use common::app::Picture;
 
-use super::{SIZE, SMALL, error, run};
+use super::{SIZE, SMALL, chapter, error};
 
 /// The error after so many samples.
 #[derive(Debug)]
@@ -15,10 +15,15 @@ struct Errors {
 #[test]
 #[ignore = "nightly: 1,024 samples a pixel; quick: sequences::each_box_of_a_scrambled_net_holds_one_point"]
 fn every_sequence_converges_to_one_picture_and_the_even_ones_sooner() {
-    let reference = run(SMALL, 1024, &["seed=1"]);
+    let reference = chapter(SMALL).frames(1024).sets(&["seed=1"]).picture();
     let errors = |sequence: &str, scrambling: &str| {
         let settings = [&format!("sequence={sequence}"), &format!("scrambling={scrambling}")];
-        let after = |frames| error(&run(SMALL, frames, &settings.map(|s| s as &str)), &reference);
+        let after = |frames| {
+            error(
+                &chapter(SMALL).frames(frames).sets(&settings.map(|s| s as &str)).picture(),
+                &reference,
+            )
+        };
         Errors { after_16: after(16), after_64: after(64), after_256: after(256) }
     };
     let random = errors("random", "Owen");
@@ -40,9 +45,10 @@ fn every_sequence_converges_to_one_picture_and_the_even_ones_sooner() {
 #[test]
 #[ignore = "nightly: many frames; quick: sequences::neighbours_have_their_points_in_common_only_without_scrambling"]
 fn errors_of_scrambled_pixels_cancel_and_shared_ones_do_not() {
-    let reference = run(SIZE, 256, &["seed=1", "filter=box"]);
+    let reference = chapter(SIZE).frames(256).sets(&["seed=1", "filter=box"]).picture();
     let blocks = |scrambling: &str| {
-        let picture = run(SIZE, 4, &["filter=box", &format!("scrambling={scrambling}")]);
+        let picture =
+            chapter(SIZE).frames(4).sets(&["filter=box"]).set("scrambling", scrambling).picture();
         let [pixels, blocks] =
             [1, 8].map(|side| error(&shrunk(&picture, side), &shrunk(&reference, side)));
         println!("{scrambling}: {pixels:.5} of pixels, {blocks:.5} of blocks");

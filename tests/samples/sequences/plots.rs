@@ -5,7 +5,7 @@ use serde_json::Map;
 
 use super::converging::shrunk;
 use super::points::{Scrambling, Sequence, sample_point};
-use super::{error, run};
+use super::{chapter, error};
 use run::expected;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 
@@ -35,7 +35,11 @@ fn points() {
 fn samples() {
     let pictures =
         [(4, "random"), (4, "Sobol"), (16, "random"), (16, "Sobol")].map(|(frames, sequence)| {
-            let picture = run("960x600", frames, &[&format!("sequence={sequence}"), "filter=box"]);
+            let picture = chapter("960x600")
+                .frames(frames)
+                .set("sequence", sequence)
+                .sets(&["filter=box"])
+                .picture();
             (format!("{frames} points: {sequence}"), picture)
         });
     let rows = [[671, 223, 60, 60], [341, 108, 60, 60]].map(|area| {
@@ -49,9 +53,10 @@ fn samples() {
 #[ignore = "by hand: draws docs/images/37_scrambling.png"]
 fn scrambling() {
     const SIZE: &str = "480x300";
-    let pictures = ["none", "Owen"]
-        .map(|scrambling| run(SIZE, 4, &["filter=box", &format!("scrambling={scrambling}")]));
-    let reference = run(SIZE, 1024, &["filter=box", "seed=1"]);
+    let pictures = ["none", "Owen"].map(|scrambling| {
+        chapter(SIZE).frames(4).sets(&["filter=box"]).set("scrambling", scrambling).picture()
+    });
+    let reference = chapter(SIZE).frames(1024).sets(&["filter=box", "seed=1"]).picture();
     let labels = ["scrambling none, 4 points", "scrambling Owen, 4 points", "1024 points"];
     let row = labels.iter().zip(pictures.iter().chain([&reference])).map(|(label, picture)| {
         Shown { label: (*label).to_owned(), picture, area: [190, 12, 79, 50] }
@@ -74,11 +79,11 @@ fn scrambling() {
 fn errors() {
     const SIZE: &str = "192x120";
     const FRAMES: [u32; 10] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512];
-    let reference = run(SIZE, 4096, &["seed=1"]);
+    let reference = chapter(SIZE).frames(4096).sets(&["seed=1"]).picture();
     let curves = SEQUENCES.map(|(sequence, scrambling, ..)| {
         let sets = [format!("sequence={sequence}"), format!("scrambling={scrambling}")];
         let sets = sets.each_ref().map(String::as_str);
-        FRAMES.map(|frames| error(&run(SIZE, frames, &sets), &reference))
+        FRAMES.map(|frames| error(&chapter(SIZE).frames(frames).sets(&sets).picture(), &reference))
     });
     println!("| sequence | 1 | 4 | 16 | 64 | 256 | power of $N$ |\n|---|---|---|---|---|---|---|");
     let mut held = Map::new();

@@ -6,25 +6,18 @@ use glam::DVec3;
 use reference::Ray;
 
 use super::{FIELD_OF_VIEW, NAME, SIZE, View};
+use run::Chapter;
 use run::primary_hits::rays;
-use run::render;
 
 /// Solids without the pieces.
 pub struct Stub;
 
 impl Stub {
-    pub fn picture(&self, size: &str, sets: &[&str]) -> Picture {
-        let sets: Vec<_> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-        render(NAME, size, &sets).picture
-    }
-
     /// One solid.
     pub fn seen(&self, (eye, target): View, name: &str, sets: &[&str]) -> Picture {
-        let solid = format!("solid={name}");
-        let [eye, target] =
-            [format!("camera eye={}", text(eye)), format!("camera target={}", text(target))];
-        let one = ["preset=one solid", &solid, &eye, &target];
-        self.picture(SIZE, &[&one, sets].concat())
+        let one = Chapter::new(NAME).size(SIZE).sets(&["preset=one solid"]).set("solid", name);
+        let seen = one.set("camera eye", text(eye)).set("camera target", text(target));
+        seen.sets(sets).picture()
     }
 
     /// Hits of rays with it: instance, face, t, and whether the ray was inside; -1 for a miss.

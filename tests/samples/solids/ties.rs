@@ -7,11 +7,11 @@ use reference::solid::bound::Stray;
 use serde_json::json;
 
 use super::counterpart::counterpart;
-use super::stub::{Stub, text, with_kinds};
+use super::stub::{text, with_kinds};
 use super::tally::Tally;
-use super::{FIELD_OF_VIEW, shape};
+use super::{FIELD_OF_VIEW, NAME, shape};
 use run::primary_hits::rays;
-use run::{bits, expected};
+use run::{Chapter, bits, expected};
 
 const LARGER: &str = "120x75";
 
@@ -31,15 +31,13 @@ struct Alone {
 
 #[test]
 fn touching_flush_and_grazing_cutters_leave_no_crack() {
-    let stub = Stub;
     let one = ["preset=one solid"];
     let views = [
         ["camera eye=2.6,1.9,3.4", "camera target=0,-0.1,0"],
         ["camera eye=-3.1,0.6,-2.2", "camera target=0,0.1,0"],
     ];
     let show = |name: &str, more: &[&str]| {
-        let solid = format!("solid={name}");
-        stub.picture(LARGER, &[&one[..], &[&solid], more].concat())
+        Chapter::new(NAME).size(LARGER).sets(&one).set("solid", name).sets(more).picture()
     };
     let mut wrong = Alone::default();
     for view in views {
@@ -82,13 +80,11 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
 
 #[test]
 fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
-    let stub = Stub;
     // The middle column looks at the line, to the last digits.
     let view = ["camera eye=-0.35,-0.12,0.61", "camera target=0,0.05,0"];
     let [thirds, cube] = ["thirds", "cube"].map(|name| {
-        let solid = format!("solid={name}");
-        let one = ["preset=one solid", "show=hit", &solid];
-        stub.picture("101x301", &[&one[..], &view].concat())
+        let one = Chapter::new(NAME).size("101x301").sets(&["preset=one solid", "show=hit"]);
+        one.set("solid", name).sets(&view).picture()
     });
     let mut cracks = 0;
     for (i, (third, whole)) in thirds.pixels.iter().zip(&cube.pixels).enumerate() {
@@ -105,7 +101,6 @@ fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
 
 #[test]
 fn rays_within_a_face_are_decided_by_the_same_rule() {
-    let stub = Stub;
     // At the height of a top, and at a wall: the middle row, or the middle column, lies in it.
     for (name, eye, target) in [
         ("tower", DVec3::new(4.0, f64::from(1.4f32), 0.3), DVec3::new(0.0, f64::from(1.4f32), 0.1)),
@@ -120,7 +115,7 @@ fn rays_within_a_face_are_decided_by_the_same_rule() {
         ];
         let show = |view| {
             let sets = ["preset=one solid", &solid, &eye_set, &target_set, view];
-            stub.picture("31x31", &sets)
+            Chapter::new(NAME).size("31x31").sets(&sets).picture()
         };
         let camera = Camera::new(eye, target, FIELD_OF_VIEW);
         let (directions, mut hits) = (show("show=ray direction"), show("show=hit"));
