@@ -28,6 +28,18 @@ fn the_first_and_the_last_call_of_each_function_may_fail() {
     assert!(is_safe("25_scene_effects", ends));
 }
 
+/// What the host writes goes to memory of the device that the host can map, and to its own if that has no room.
+#[test]
+fn on_a_card_with_memory_of_its_own_each_of_them_may_fail_too() {
+    let card = Layer::minimum_limits("bar");
+    let run = |layer: &Layer, calls: &Path| {
+        let mut command = run::command("02_basic");
+        command.envs(layer.above(&card)).env("CALLS", calls);
+        command.args(["--headless", "--size", "8x8"]).output().expect("the sample starts")
+    };
+    assert!(each_is_answered("02_basic", run, ends));
+}
+
 #[test]
 #[ignore = "nightly: every call of every chapter, or of those that CHAPTERS names; quick: failures::the_first_and_the_last_call_of_each_function_may_fail"]
 fn every_call_of_every_chapter_may_fail() {

@@ -2,10 +2,16 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+#[cfg(target_os = "linux")]
+use std::process::Command;
 
 use crate::{refused_by, sample};
 
 const SETUP: &str = "run ./setup";
+
+/// Variables by which a machine may name its drivers, and their libraries.
+const DRIVERS: [&str; 4] =
+    ["VK_DRIVER_FILES", "VK_ADD_DRIVER_FILES", run::device::VARIABLE, "LD_LIBRARY_PATH"];
 
 /// The two that make an instance of their own.
 const SAMPLES: [&str; 2] = ["01_foundation", "02_basic"];
@@ -97,17 +103,19 @@ fn no_validation_layer() {
 
 #[test]
 fn no_environment_at_all() {
-    // Neither HOME nor PATH nor a language: as from a service. But for the driver that tests run on.
+    // Neither HOME nor PATH nor a language, as in a service; only the drivers that tests run on.
     let folder = tempfile::tempdir().unwrap();
-    let driver = std::env::var_os(run::device::VARIABLE).map(|file| (run::device::VARIABLE, file));
-    let status = sample().env_clear().envs(driver).current_dir(&folder).status().unwrap();
+    let drivers = DRIVERS.iter().filter_map(|name| Some((name, std::env::var_os(name)?)));
+    let status = sample().env_clear().envs(drivers).current_dir(&folder).status().unwrap();
     assert!(status.success());
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
 }
 
 #[test]
 fn no_compiler_for_another_gpu() {
-    // The variable takes the place of the folders in which drivers are found; the device's own is named.
+    let mut command = sample();
+    // The variable replaces the folders in which drivers are found, so the device's own driver is named.
+    command.args(["--compile-for", "navi31"]).env("XDG_DATA_DIRS", "/nonexistent");
     let drivers = ["/etc", "/usr/local/share", "/usr/share"]
         .map(|folder| Path::new(folder).join("vulkan/icd.d"))
         .iter()
@@ -117,8 +125,36 @@ fn no_compiler_for_another_gpu() {
     if drivers.iter().any(|driver| driver.starts_with("/etc")) {
         return println!("not tried: drivers in /etc cannot be hidden");
     }
-    let mut command = sample();
-    command.args(["--compile-for", "navi31"]).env("XDG_DATA_DIRS", "/nonexistent");
-    command.env("VK_DRIVER_FILES", std::env::join_paths(drivers).expect("plain names"));
+    if ["VK_DRIVER_FILES", run::device::VARIABLE]
+        .iter()
+        .all(|name| std::env::var_os(name).is_none())
+    {
+        command.env("VK_DRIVER_FILES", std::env::join_paths(drivers).expect("plain names"));
+    }
     refused_by(command, 1, &["(RADV), which is not installed", SETUP]);
+}
+
+/// A machine whose only driver lies where the loader does not look, so that a variable has to name it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_driver_that_only_a_variable_names_is_enough_for_these_tests() {
+    let folder = tempfile::tempdir().unwrap();
+    let named = folder.path().join("named.json");
+    let Some(manifest) = run::device::manifest() else { return };
+    fs::copy(&manifest, &named).unwrap();
+    // What is mounted is seen by this shell alone.
+    let script = "mount -t tmpfs none \"$1\" || exit 77; shift; exec \"$@\"";
+    let mut command = Command::new("unshare");
+    command.args(["--map-root-user", "--mount", "sh", "-c", script, "sh"]);
+    command.arg(manifest.parent().expect("a folder"));
+    command.arg(std::env::current_exe().expect("a running program has a file"));
+    command.args(["--exact", "machine::no_environment_at_all"]);
+    command.arg("machine::no_compiler_for_another_gpu");
+    command.env("GPU", "1").env("VK_DRIVER_FILES", &named).env_remove(run::device::VARIABLE);
+    let output = command.output().unwrap();
+    let [told, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    match output.status.code() {
+        Some(77 | 1) if told.is_empty() => println!("not tried: {errors}"),
+        _ => assert!(told.contains("2 passed"), "{told:.3000}{errors:.3000}"),
+    }
 }

@@ -13,6 +13,8 @@ use own_tree::{Builder, OwnScene, RAYS, TRACED, Trees};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
+/// Most invocations of a workgroup: fewer where the device takes fewer, and every device takes 128.
+const WORKGROUP: u32 = 256;
 /// Invocations in a row of a dispatch.
 const ACROSS: u32 = 1 << 12;
 
@@ -151,10 +153,11 @@ impl Rig {
                 .push_constants::<Launch>()
                 .build(gpu)
         };
+        let most = self.gpu.limits.core.max_compute_work_group_invocations;
         let computed = || {
             ComputePipeline::builder(NAME)
                 .compute(RAYS)
-                .workgroup(4, [256, 1])
+                .workgroup(4, [WORKGROUP.min(most), 1])
                 .constant(1, rungs.boxes)
                 .constant(2, rungs.triangles)
                 .constant(3, self.own.trees.stack)

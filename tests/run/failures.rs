@@ -79,7 +79,10 @@ pub fn each_is_answered(
         let errors = String::from_utf8_lossy(&output.stderr);
         // How many bands a picture has depends on the time: this run may have had fewer calls.
         let unmet = now.get(function).is_some_and(|&calls| calls < number);
-        let may_succeed = needless(function, result) || unmet;
+        // A card has memory of several types: what fails in one is tried in another.
+        let elsewhere = ["vkAllocateMemory", "vkMapMemory"].contains(&function)
+            && now.get(function) > calls.get(function);
+        let may_succeed = needless(function, result) || unmet || elsewhere;
         let right = match output.status.code() {
             Some(0) if may_succeed => errors.is_empty(),
             Some(1) => {

@@ -118,7 +118,23 @@ impl Layer {
     /// Loaders from 1.3.234 to 1.3.246 call them in the order in which they find them instead
     /// (<https://github.com/KhronosGroup/Vulkan-Loader/pull/1170>), so that is made the same.
     pub fn environment(&self) -> Vec<(&'static str, OsString)> {
-        let known = std::env::var_os("XDG_DATA_DIRS").filter(|folders| !folders.is_empty());
+        self.environment_in(std::env::var_os("XDG_DATA_DIRS"))
+    }
+
+    /// The same for this layer above another, without the validation that the other brings.
+    pub fn above(&self, below: &Self) -> Vec<(&'static str, OsString)> {
+        let mut all = below.environment();
+        let folders = all.iter().find(|(name, _)| *name == "XDG_DATA_DIRS");
+        let folders = folders.map(|(_, folders)| folders.clone());
+        all.extend(self.environment_in(folders));
+        // A layer's own name is the last.
+        let own = below.layers.rsplit(':').next().expect("a list has a last part");
+        all.push(("VK_INSTANCE_LAYERS", format!("{}:{own}", self.layers).into()));
+        all
+    }
+
+    fn environment_in(&self, known: Option<OsString>) -> Vec<(&'static str, OsString)> {
+        let known = known.filter(|folders| !folders.is_empty());
         let known = known.unwrap_or_else(|| "/usr/local/share:/usr/share".into());
         let own = std::iter::once(PathBuf::from(self.folder.path()));
         let known = std::env::split_paths(&known);
@@ -141,4 +157,20 @@ fn path(library: &str) -> PathBuf {
     let library = test.with_file_name(format!("{DLL_PREFIX}{library}{DLL_SUFFIX}"));
     assert!(Path::new(&library).is_file(), "no {}", library.display());
     library
+}
+
+/// Runs a test of this program, one with `#[ignore]` or not, in a child process in which every device is the
+/// narrowest. For tests that call Vulkan themselves: the layer comes by the environment of a whole process.
+#[track_caller]
+pub fn in_child(test: &str, faults: &str) {
+    let narrow = Layer::minimum_limits(faults);
+    let this = std::env::current_exe().expect("a running program has a file");
+    let output = Command::new(this)
+        .args(["--exact", test, "--include-ignored", "--nocapture"])
+        .envs(narrow.environment())
+        .env("GPU", "narrow")
+        .output()
+        .expect("it starts");
+    let [told, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success() && told.contains("1 passed"), "{told:.3000}{errors:.3000}");
 }
