@@ -4,7 +4,7 @@ use std::process::Output;
 
 use common::gpu::{ADDRESS_ALIGNMENT, Buffer, Gpu, GpuOptions, Requirements, device_lines};
 use common::scene::input_usage;
-use run::layer::Layer;
+use run::layer::{Layer, in_child};
 
 use ash::vk;
 
@@ -341,20 +341,7 @@ fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
     );
 }
 
-/// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each
-/// is run again in a child with `--ignored`.
-pub fn in_child(test: &str, faults: &str) {
-    let narrow = Layer::minimum_limits(faults);
-    let this = std::env::current_exe().expect("a running program has a file");
-    let output = std::process::Command::new(this)
-        .args(["--exact", test, "--ignored", "--nocapture"])
-        .envs(narrow.environment())
-        .env("GPU", "narrow")
-        .output()
-        .expect("it starts");
-    let [told, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
-    assert!(output.status.success() && told.contains("1 passed"), "{told:.3000}{errors:.3000}");
-}
+// The tests below call Vulkan themselves: each is run again in a child with the layer.
 
 #[test]
 fn without_64_bit_floats_the_worst_arithmetic_is_left_out() {

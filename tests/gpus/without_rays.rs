@@ -6,11 +6,11 @@ use common::gpu::{
     Timer, barrier, device, device_lines,
 };
 use common::scene::{Scene, SceneAddresses, SceneOnGpu};
-use run::layer::Layer;
+use run::layer::{Layer, in_child};
 
 use ash::{khr, vk};
 
-use super::narrowest::{in_child, quiet, runs};
+use super::narrowest::{quiet, runs};
 
 /// Faults for the layer: all of ray tracing is hidden, and the device is one of those that Macs have.
 const FAULTS: &str = "no-ray-tracing,portability";
