@@ -28,7 +28,7 @@ fn the_first_and_the_last_call_of_each_function_may_fail() {
     assert!(is_safe("25_scene_effects", ends));
 }
 
-/// What the host writes goes to memory of the device that the host can map, and to its own if that has no room.
+/// Uploads go to memory of the device that the host can map, or to the host's own if there is no room.
 #[test]
 fn on_a_card_with_memory_of_its_own_each_of_them_may_fail_too() {
     let card = Layer::minimum_limits("bar");

@@ -142,7 +142,7 @@ fn a_driver_that_only_a_variable_names_is_enough_for_these_tests() {
     let named = folder.path().join("named.json");
     let Some(manifest) = run::device::manifest() else { return };
     fs::copy(&manifest, &named).unwrap();
-    // What is mounted is seen by this shell alone.
+    // Only this shell sees the mount.
     let script = "mount -t tmpfs none \"$1\" || exit 77; shift; exec \"$@\"";
     let mut command = Command::new("unshare");
     command.args(["--map-root-user", "--mount", "sh", "-c", script, "sh"]);

@@ -23,8 +23,8 @@ fn limited(limit: &str, program: &str) -> Command {
 
 /// Exit code 0 and nothing said, or 1 and one line of the program's own; whether it was the first.
 ///
-/// What Rust, the driver and its compiler write themselves, before they give up, may stand above that line; another
-/// device's driver may write whenever it fails.
+/// Rust, the driver and its compiler may write lines of their own above that line before they give up; a GPU's
+/// driver may whenever it fails.
 #[track_caller]
 fn done_or_said(what: &str, output: Output) -> bool {
     let errors = String::from_utf8_lossy(&output.stderr);

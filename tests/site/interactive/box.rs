@@ -15,6 +15,7 @@ use crate::reading::{DESK, address, sized};
 pub const PAGE: &str = "08_intersection.html";
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn each_shape_reports_what_the_exact_ray_hits_first() {
     let mut browser = Browser::start();
     shown(&mut browser, &address(PAGE), "box");
@@ -110,6 +111,7 @@ fn each_shape_reports_what_the_exact_ray_hits_first() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_ends_of_the_ray_are_dragged_along_it() {
     let mut browser = Browser::start();
     sized(&mut browser, DESK);

@@ -48,6 +48,7 @@ fn stripes(middle: f64, width: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_square() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "checker");

@@ -26,6 +26,7 @@ fn discriminants(o: [f32; 2], d: [f32; 2]) -> [f32; 2] {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_digits_are_exact_and_the_discriminants_those_of_floats() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "digits");

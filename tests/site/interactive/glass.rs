@@ -111,6 +111,7 @@ fn held(
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn each_part_of_a_ray_goes_where_snell_says_with_the_light_that_fresnel_says() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "glass");

@@ -22,6 +22,7 @@ fn near(a: f64, b: f64) -> bool {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_circle_is_as_large_as_rays_from_the_rims_make_it() {
     let mut browser = Browser::start();
     shown(&mut browser, &address(PAGE), "lens");

@@ -37,6 +37,7 @@ fn land(k: f64) -> Heightfield {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_that_are_steep() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "march");

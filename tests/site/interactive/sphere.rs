@@ -11,6 +11,7 @@ use crate::reading::address;
 pub const PAGE: &str = "08_intersection.html";
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_spheres_agree_with_the_exact_ones() {
     const EVERY: usize = 59;
     let sphere = Sphere { center: [0.0; 3].into(), radius: 1.0 };

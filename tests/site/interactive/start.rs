@@ -12,6 +12,7 @@ use crate::reading::address;
 const PAGE: &str = "05_shadow_miss.html";
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_starts_hit_their_surface_where_the_figure_says_acne() {
     // The surface of the figure, from corner to corner.
     let [low, high] = [0.1f32, 0.7].map(f64::from);

@@ -13,6 +13,7 @@ use crate::reading::{DESK, address, sized};
 pub const PAGE: &str = "02_basic.html";
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_weights_are_those_of_the_exact_hit() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, DESK);
