@@ -9,7 +9,7 @@ struct Hit {
     vec3 color;       // the material's colour, its texture already read; of a material with a pattern, the
                       // place in the mesh's own space, by which raygen finds it; for a miss, the sky's
 #ifdef DEPARTURES
-    float offset;     // a ray that starts so far along `face` is above the surface, wherever it goes
+    float offset;     // start a ray this far along `face`: it is above the surface
     vec3 face;        // the surface's own normal: unit, on the same side
 #endif
 #ifdef TERMINATOR

@@ -1,5 +1,5 @@
 // Where a ray starts that leaves a surface, in eight ways: five that fail somewhere, one that does not,
-// that of chapter 05 and Mitsuba's.
+// that of chapter 41 and Mitsuba's.
 //
 // A ray that starts below the surface hits it again: acne. A ray that starts too far above it misses things
 // that are close by: leaks.
@@ -17,7 +17,7 @@ struct Departure {
     vec3 reached;    // where the last ray's t ends
     vec3 position;   // the same in the triangle, by its corners
     vec3 normal;     // of the triangle: unit, on the side that the last ray came from
-    float offset;    // chapter 05's
+    float offset;    // chapter 41's
     float sunk;      // how far the way into the world and back puts the position below the triangle
     float error;     // what rounding may hide of that, in units of ROUNDING
     float rise;      // how far a step of 1 along the normal goes up in the mesh's space
@@ -43,7 +43,7 @@ Departure departure(TriangleHit seen, InstanceRecord instance, Ray arriving) {
     from.to_mesh = mat3(seen.to_mesh);
     from.to_a = -within;
 
-    // Without an area there is no normal but the one that chapter 05 chose.
+    // Without an area there is no normal but the one that chapter 41 chose.
     vec3 up = cross(from.e1, from.e2);
     up = normalize(dot(up, up) > 1e-37 ? up : from.to_mesh * from.normal);
     // A normal comes into the world by the transposed matrix that takes points out of it.
@@ -129,7 +129,7 @@ RayOrigin start_bound(Departure from, vec3 direction) {
     return RayOrigin(from.position + step * from.normal, 0.0);
 }
 
-// Chapter 05's: one step for every direction above the surface, so it knows no direction.
+// Chapter 41's: one step for every direction above the surface, so it knows no direction.
 RayOrigin start_offset(Departure from) {
     return RayOrigin(from.position + from.offset * from.normal, 0.0);
 }

@@ -5,7 +5,7 @@
 
 struct Hit {
     vec3 position;    // on the surface, in the world
-    float offset;     // a ray that starts so far along `face` is above the surface, wherever it goes
+    float offset;     // start a ray this far along `face`: it is above the surface
     vec3 face;        // the triangle's own normal: unit, on the side that the ray came from
     float t;          // the distance along the ray; -1 if the ray met nothing
     vec3 normal;      // the normal to shade with: unit, on the same side

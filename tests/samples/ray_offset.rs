@@ -73,7 +73,7 @@ fn a_constant_fails_at_another_size_and_far_away() {
         ("here", &[][..]),
         ("small", &["size=0.001"]),
         ("large", &["size=1000"]),
-        ("far", &["moved=10000"]),
+        ("far", &["moved=1000000"]),
     ] {
         for offset in ["constant", "bound"] {
             let offset_set = format!("offset={offset}");

@@ -20,6 +20,8 @@ crate::shader_enum! {
         Not = "0",
         /// 10000 units, along all axes.
         Far = "10000",
+        /// A million units, in the same direction.
+        Farther = "1000000",
     }
 }
 
@@ -49,7 +51,12 @@ impl Placement {
             Size::Usual => 1.0,
             Size::Large => 1e3,
         };
-        Self { size, moved: if moved == Moved::Far { FAR } else { DVec3::ZERO } }
+        let moved = match moved {
+            Moved::Not => DVec3::ZERO,
+            Moved::Far => FAR,
+            Moved::Farther => 100.0 * FAR,
+        };
+        Self { size, moved }
     }
 
     /// The scene with its instances and its camera moved; the meshes stay unchanged.
