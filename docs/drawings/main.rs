@@ -63,6 +63,7 @@ const DRAWINGS: &[Drawing] = &[
     ("solid_intervals", shapes::intervals),
     ("subtract_first", floats::subtract_first),
     ("table_of_foundation", table::chapter_01),
+    ("table_of_shadow_miss", table::chapter_05),
     ("thin_lens", lens::thin_lens),
     ("trace_calls", calls::trace_calls),
     ("two_lights", shadows::two_lights),

@@ -1,4 +1,4 @@
-//! The map of the book: every chapter below the one that it comes from, and the ways through them.
+//! The map of the book: the first way as one line, and below it every chapter under the one it comes from.
 //!
 //! All of it is from `Cargo.toml`. It is narrow, so that a phone shows its words in a size that can be read.
 
@@ -7,7 +7,7 @@ use std::path::Path;
 use manuscript::project::{Chapter, Project, Way};
 
 use crate::sheet::Anchor::{End, Middle, Start};
-use crate::sheet::{BLUE, BROWN, DEVICE, GREEN, LEAF, LINE, SEA, Sheet, WHITE, YOURS};
+use crate::sheet::{BLUE, DEVICE, GREEN, LEAF, LINE, SEA, Sheet, WHITE, YOURS};
 
 /// The height of a row and of a card, and how far a chapter stands to the right of the one it comes from.
 const ROW: f64 = 27.0;
@@ -15,7 +15,11 @@ const CARD: f64 = 21.0;
 const STEP: f64 = 18.0;
 /// The left edge, and that of the first row.
 const LEFT: f64 = 14.0;
-const TOP: f64 = 54.0;
+const TOP: f64 = 122.0;
+/// The line of the first way: its top, the height of a card, and the room between two cards.
+const FIRST: f64 = 54.0;
+const FIRST_CARD: f64 = 28.0;
+const GAP: f64 = 22.0;
 /// From way to way.
 const LANE: f64 = 28.0;
 /// What a letter is wide at most, on average, plain and strong, and the room beside a card's words.
@@ -24,9 +28,9 @@ const MARGIN: f64 = 7.0;
 /// Room for the number of a part.
 const NUMERAL: f64 = 24.0;
 
-/// What the parts of the book are drawn in, and the ways.
+/// What the parts of the book are drawn in, and the ways beside the tree.
 const GROUNDS: [&str; 6] = [BLUE, GREEN, YOURS, "#f3d9a8", DEVICE, WHITE];
-const INKS: [&str; 3] = [BROWN, SEA, LEAF];
+const INKS: [&str; 2] = [SEA, LEAF];
 
 /// The chapters of this book.
 pub fn chapters() -> String {
@@ -34,28 +38,51 @@ pub fn chapters() -> String {
     draw(&Project::open(&root).expect("Cargo.toml names the chapters"))
 }
 
+/// The first way as one line from left to right, which ends in a program of the reader's own.
+fn first_line(s: &mut Sheet, project: &Project, way: &Way, width: f64) {
+    let stops: Vec<String> = (way.chapters.iter())
+        .filter_map(|number| project.chapters.iter().find(|chapter| chapter.number() == *number))
+        .map(Chapter::heading)
+        .chain(["your own program".to_owned()])
+        .collect();
+    let room = width - 2.0 * LEFT - GAP * (stops.len() - 1) as f64;
+    let letters: usize = stops.iter().map(|stop| stop.chars().count() + 2).sum();
+    let mut x = LEFT;
+    for (index, stop) in stops.iter().enumerate() {
+        let card = room * (stop.chars().count() + 2) as f64 / letters as f64;
+        let middle = FIRST + FIRST_CARD / 2.0;
+        if index > 0 {
+            s.arrow(&[[x - GAP + 2.0, middle], [x - 3.0, middle]]);
+        }
+        s.card([x, FIRST], [card, FIRST_CARD], GROUNDS[0], "", &[]);
+        s.strong([x + card / 2.0, middle + 4.5], Middle, stop);
+        x += card + GAP;
+    }
+}
+
 fn draw(project: &Project) -> String {
     let tree = project.tree();
-    let (ways, parts) = (&project.ways, project.parted());
+    let parts = project.parted();
+    let (first_way, ways) = project.ways.split_first().expect("a first way");
     let place = |row: usize| {
         let left = LEFT + STEP * tree[row].0 as f64;
         [left, TOP + ROW * (ways.len() + row) as f64]
     };
-    let first = |chapter: &Chapter| {
-        ways.first().is_some_and(|way| way.chapters.iter().any(|n| n == chapter.number()))
-    };
+    let first = |chapter: &Chapter| first_way.chapters.iter().any(|n| n == chapter.number());
     let width = |row: usize| {
         let chapter = tree[row].1;
         let letter = LETTER[usize::from(first(chapter))];
         letter * chapter.heading().chars().count() as f64 + 2.0 * MARGIN + NUMERAL
     };
     let right = (0..tree.len()).map(|row| place(row)[0] + width(row)).fold(0.0, f64::max);
-    // The first way is the outermost, so that its line crosses no other's words.
+    // The upper way is the outermost, so that its line crosses no other's words.
     let lane = |way: usize| right + 24.0 + LANE * (ways.len() - 1 - way) as f64;
     let legend = TOP + ROW * (ways.len() + tree.len()) as f64 + 22.0;
     let size =
         [right + LANE * ways.len() as f64 + 14.0, legend + ROW * parts.len().div_ceil(2) as f64];
-    let mut s = Sheet::new(size.map(|side| side as u32), "Who comes from whom");
+    let mut s = Sheet::new(size.map(|side| side as u32), "Read this first");
+    first_line(&mut s, project, first_way, size[0]);
+    s.title([LEFT, TOP - 10.0], Start, "Every chapter under the one it comes from");
 
     for (row, &(depth, chapter)) in tree.iter().enumerate() {
         let [x, y] = place(row);
@@ -85,7 +112,7 @@ fn draw(project: &Project) -> String {
         let mut along = stops.clone();
         along.sort_by(f64::total_cmp);
         let head = TOP + ROW * index as f64 + CARD / 2.0;
-        s.say([x - 22.0, head + 4.5], End, &format!("way {}: {title}", index + 1));
+        s.say([x - 22.0, head + 4.5], End, title);
         s.line(
             &[[x - 16.0, head], [x, head], [x, along.first().map_or(head, |y| y - 9.0)]],
             ink,

@@ -32,6 +32,33 @@ pub fn chapter_01() -> String {
     s.svg()
 }
 
+/// That of chapter 05: a second miss record, which a shadow ray's missIndex chooses.
+pub fn chapter_05() -> String {
+    let mut s = Sheet::new([840, 250], "The shader binding table of chapter 05");
+    let regions: [(&str, &str, &[&str]); 3] = [
+        ("ray generation", "one record", &["camera.rgen"]),
+        ("miss", "chosen by missIndex", &["0: sky.rmiss", "1: shadow.rmiss"]),
+        ("hit", "one record for all triangles", &["0: shade.rchit"]),
+    ];
+    for (column, (name, chosen, records)) in regions.into_iter().enumerate() {
+        let x = 24.0 + 272.0 * column as f64;
+        s.title([x, 70.0], Start, name);
+        s.note([x, 88.0], Start, chosen);
+        for (row, record) in records.iter().enumerate() {
+            let fill = if *record == "1: shadow.rmiss" { BLUE } else { YOURS };
+            s.card([x, 98.0 + 34.0 * row as f64], [236.0, 30.0], fill, "", &[record]);
+        }
+    }
+    let lines = [
+        "The camera's ray has missIndex 0 and may run shade.rchit.",
+        "The shadow ray has missIndex 1 and skips the closest hit shader: only shadow.rmiss may run.",
+    ];
+    for (row, line) in lines.into_iter().enumerate() {
+        s.note([24.0, 200.0 + 20.0 * row as f64], Start, line);
+    }
+    s.svg()
+}
+
 /// That of chapter 13, which has records in all four regions.
 pub fn chapter_13() -> String {
     let mut s =

@@ -1,8 +1,7 @@
-//! 05 · Shadow miss: a second miss shader answers one question, "does this ray reach the light?".
+//! 05 · Shadow miss: a second ray checks whether the sun is visible; its miss shader sets one bool.
 //!
-//! New since 02_basic: the miss shader `shadow.rmiss` with a payload of one bool, the ray flags of a
-//! shadow ray, and an origin that its own surface cannot shadow. The hit shader reports what was met, and the
-//! raygen shader traces every ray.
+//! New since 02_basic: the miss shader `shadow.rmiss`, the ray flags of a shadow ray, and an offset that lifts its
+//! origin off the surface. The hit shader reports the hit, and the raygen shader traces every ray.
 
 use std::process::ExitCode;
 
@@ -25,6 +24,7 @@ struct Demo {
     pipelines: Variants<Show>,
     camera: Camera,
     sun: Sun,
+    offset: f32,
     show: Show,
 }
 
@@ -41,6 +41,7 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
+        offset: f32,
     }
 }
 
@@ -54,12 +55,20 @@ impl Sample for Demo {
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
-        Ok(Self { scene, pipelines: Variants::default(), camera, sun, show: Show::Picture })
+        Ok(Self {
+            scene,
+            pipelines: Variants::default(),
+            camera,
+            sun,
+            offset: 1e-3,
+            show: Show::Picture,
+        })
     }
 
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.sun(&mut self.sun);
+        c.slider("offset", &mut self.offset, 0.0..=0.1);
         c.camera(&mut self.camera);
     }
 
@@ -69,6 +78,7 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
+            offset: self.offset,
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),

@@ -1,6 +1,6 @@
 //! 06 · Reflection: a hit sends the next ray on its way, from a loop or by recursion.
 //!
-//! New since 05_shadow_miss: a path of rays, which mirrors turn. A loop in the raygen shader traces it; or
+//! New since 41_ray_offset: a path of rays, which mirrors turn. A loop in the raygen shader traces it; or
 //! the closest hit shader lights what it reports, and traces the next ray itself (`recursion.rs`).
 
 mod recursion;

@@ -1,6 +1,6 @@
 //! 08 · Intersection: spheres and boxes, which the device does not know, found by our own shaders.
 //!
-//! New since 05_shadow_miss: bottom levels of boxes, the intersection shaders `sphere.rint` and
+//! New since 41_ray_offset: bottom levels of boxes, the intersection shaders `sphere.rint` and
 //! `box.rint`, a closest hit shader for both, hit groups per instance, and how exact all that is.
 
 mod boxes;

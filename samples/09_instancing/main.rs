@@ -1,6 +1,6 @@
 //! 09 · Instancing: thousands of pieces from a handful of meshes, each with a matrix and a mind of its own.
 //!
-//! New since 05_shadow_miss: the instances are made here, with masks, custom indices and flags; a record
+//! New since 41_ray_offset: the instances are made here, with masks, custom indices and flags; a record
 //! a piece; and normals under any matrix.
 
 mod formation;

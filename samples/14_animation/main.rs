@@ -1,6 +1,6 @@
 //! 14 · Animation: a game of chess is played, and a flag waves beside it.
 //!
-//! New since 05_shadow_miss: a frame's number says where everything is; a compute shader moves vertices; bottom
+//! New since 41_ray_offset: a frame's number says where everything is; a compute shader moves vertices; bottom
 //! and top levels are updated or built again, each behind its barriers.
 
 mod costs;

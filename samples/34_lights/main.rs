@@ -1,6 +1,6 @@
 //! 34 · Lights: a light gives a direction, a strength and the ray's end.
 //!
-//! New since 05_shadow_miss: `Light`, which is the sun or a lamp at a place; its strength falls with the distance, and
+//! New since 41_ray_offset: `Light`, which is the sun or a lamp at a place; its strength falls with the distance, and
 //! the shadow ray ends at it.
 
 use std::process::ExitCode;

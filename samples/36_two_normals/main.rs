@@ -1,7 +1,7 @@
 //! 36 · Two normals: shade by one normal, leave by the other.
 //!
-//! New since 05_shadow_miss: a switch that takes away the lift, by which a shadow ray leaves the round surface that
-//! the triangles stand for.
+//! New since 41_ray_offset: the terminator offset, from the flat triangle to the round surface that its
+//! normals pretend, and a switch that leaves it out.
 
 use std::process::ExitCode;
 
@@ -104,7 +104,7 @@ fn pipeline(
 ) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
-        .miss("common/sky.rmiss")
+        .miss("sky.rmiss")
         .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)

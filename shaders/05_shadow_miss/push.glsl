@@ -9,4 +9,5 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     DirectionalLight light;
+    float offset;   // of a shadow ray's start, along the face normal
 } push;

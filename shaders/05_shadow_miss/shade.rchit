@@ -3,7 +3,6 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "common/hit_point.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
@@ -16,13 +15,12 @@ void main() {
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    HitPoint at = hit_point(instance, triangle, barycentrics);
-    hit.position = at.position;
-    hit.offset = at.offset;
-    hit.face = at.face;
-    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
+    hit.position = gl_WorldRayOriginEXT + hit.t * gl_WorldRayDirectionEXT;
+    hit.offset = push.offset;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
+    vec3 face = normalize(vec3(surface.face * gl_WorldToObjectEXT));
+    hit.face = faceforward(face, gl_WorldRayDirectionEXT, face);
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);

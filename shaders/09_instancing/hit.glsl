@@ -5,4 +5,4 @@ struct PieceHit {
     Hit hit;
     vec3 object;      // in the mesh's space, for a view: the normal
     uint place;       // the instance's place in the array that was built: gl_InstanceID
-};                    // 96 bytes
+};                    // 84 bytes

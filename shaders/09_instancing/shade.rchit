@@ -35,7 +35,6 @@ void main() {
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     vec3 normal = normalize(world_normal(piece, surface.normal));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.

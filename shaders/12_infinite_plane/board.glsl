@@ -81,7 +81,6 @@ CurvedHit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) 
     hit.material = inside ? SIDE_INSIDE : SIDE_OUTSIDE;
     hit.color = shines && inside ? board.inner * light : mix(board.dark, board.light, light);
     hit.triangle = 0;
-    hit.lift = vec3(0.0);
     hit.instance = PLANE;
     return CurvedHit(hit, 0.0);
 }

@@ -5,4 +5,4 @@ struct PatternHit {
     Hit hit;
     vec3 object;      // the position in the mesh's own space, where patterns are
     float weight;     // of the second colour of the material's pattern
-};                    // 96 bytes
+};                    // 84 bytes

@@ -26,7 +26,6 @@ void report(inout Hit hit, rayQueryEXT query) {
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.

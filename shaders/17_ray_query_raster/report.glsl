@@ -25,7 +25,6 @@ void report(inout Hit hit, Seen seen, vec3 ray) {
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
     hit.t = dot(hit.position - push.camera.origin, ray);
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));

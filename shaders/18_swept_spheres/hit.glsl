@@ -5,4 +5,4 @@
 struct StrandHit {
     Hit hit;
     float along;      // where on a segment: 0 and 1 are its ends; -1 on a triangle
-};                    // 84 bytes
+};                    // 72 bytes

@@ -27,7 +27,6 @@ HitPoint hit_point_on_strand(Node a, Node b) {
     at.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
     at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
     at.offset = ROUNDING * dot(abs(at.face), error_bound);
-    at.lift = vec3(0.0);   // a shape is as round as it looks
     return at;
 }
 
@@ -42,7 +41,6 @@ void main() {
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     if (NORMAL == NORMAL_AXIS) {

@@ -35,7 +35,6 @@ void main() {
     place_on_ground();
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
-    hit.lift = vec3(0.0);
     hit.color = color(hit.position.y, hit.face);
     hit.material = push.ground.material;
     hit.triangle = gl_PrimitiveID;

@@ -5,4 +5,4 @@
 struct SolidHit {
     Hit hit;
     uint kind;        // a triangle, KIND_ENTERS or KIND_LEAVES: gl_HitKindEXT
-};                    // 84 bytes
+};                    // 72 bytes

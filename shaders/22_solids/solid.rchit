@@ -54,7 +54,6 @@ HitPoint hit_point_on_face(Face face) {
     at.face = normalize(vec3(normal * gl_WorldToObjectEXT));
     at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
     at.offset = ROUNDING * dot(abs(at.face), error_bound);
-    at.lift = vec3(0.0);   // a shape is as round as it looks
     return at;
 }
 
@@ -68,7 +67,6 @@ void main() {
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     hit.color = push.scene.materials.at[part.material].base_color;

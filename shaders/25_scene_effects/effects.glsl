@@ -48,7 +48,7 @@
 #endif
 // Triangles that stand for a round surface: a shadow ray leaves that.
 #if defined(SHADOWS) && defined(EFFECT_TRIANGLES)
-#define LIFTS
+#define TERMINATOR
 #endif
 // Without textures there is nothing to filter.
 #ifndef EFFECT_TEXTURES

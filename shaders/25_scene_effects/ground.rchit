@@ -20,8 +20,8 @@ void main() {
     hit.offset = 2.0 * push.world.ground.error;
     hit.face = hit.normal;
 #endif
-#ifdef LIFTS
-    hit.lift = vec3(0.0);
+#ifdef TERMINATOR
+    hit.terminator_offset = vec3(0.0);
 #endif
 #ifdef CHANCES
     hit.emitter = NO_EMITTER;

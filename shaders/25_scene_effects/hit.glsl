@@ -12,8 +12,8 @@ struct Hit {
     float offset;     // a ray that starts so far along `face` is above the surface, wherever it goes
     vec3 face;        // the surface's own normal: unit, on the same side
 #endif
-#ifdef LIFTS
-    vec3 lift;        // from the flat triangle to the round surface that its normals pretend
+#ifdef TERMINATOR
+    vec3 terminator_offset;  // from the flat triangle to the round surface that its normals pretend
 #endif
 #ifdef EFFECT_GLASS
     bool entering;    // whether the ray came from outside of the body

@@ -8,14 +8,14 @@
 // Where shadow rays start.
 struct RayOrigin {
     vec3 origin;
-    bool lifted;     // to the round surface that triangles stand for
+    bool is_offset;    // to the round surface that triangles stand for
 };
 
 RayOrigin shadow_start(Hit hit) {
     RayOrigin start = RayOrigin(hit.position + hit.offset * hit.face, false);
-#ifdef LIFTS
-    start.origin += hit.lift;
-    start.lifted = hit.lift != vec3(0.0);
+#ifdef TERMINATOR
+    start.origin += hit.terminator_offset;
+    start.is_offset = hit.terminator_offset != vec3(0.0);
 #endif
     return start;
 }
@@ -53,7 +53,7 @@ float visibility(DiskLight disk, RayOrigin start, Hit hit, vec2 first) {
         vec3 to_light = towards_disk(disk, start.origin, point);
         // What is below the surface, the surface itself hides; that needs no ray. On a round surface, up is
         // where the smooth normal points.
-        vec3 up = start.lifted ? hit.normal : hit.face;
+        vec3 up = start.is_offset ? hit.normal : hit.face;
         if (dot(up, to_light) > 0.0
             && is_lit(start.origin, to_light, light_end(disk.light), on_plane)) {
             seen++;

@@ -5,6 +5,9 @@
 #include "hit.glsl"
 #include "common/hit_point.glsl"
 
+#ifdef TERMINATOR
+#include "common/terminator.glsl"
+#endif
 #ifdef FINISHES
 #include "finish.glsl"
 #endif
@@ -102,9 +105,8 @@ void main() {
     hit.offset = at.offset;
     hit.face = at.face;
 #endif
-#ifdef LIFTS
-    // Not at.lift: what is known sooner is kept in registers longer. The compiler drops the other.
-    hit.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
+#ifdef TERMINATOR
+    hit.terminator_offset = terminator_offset(at.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.

@@ -35,8 +35,8 @@ Hit hit_of_plane(Ray ray, float t) {
     hit.offset = 0.0;   // a ray that leaves the plane is not tested against it
     hit.face = hit.normal;
 #endif
-#ifdef LIFTS
-    hit.lift = vec3(0.0);
+#ifdef TERMINATOR
+    hit.terminator_offset = vec3(0.0);
 #endif
 #ifdef CHANCES
     hit.emitter = NO_EMITTER;

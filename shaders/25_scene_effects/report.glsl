@@ -23,8 +23,8 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
     hit.offset = ROUNDING * dot(abs(hit.normal), own + 30.0 * abs(point));
     hit.face = hit.normal;
 #endif
-#ifdef LIFTS
-    hit.lift = vec3(0.0);
+#ifdef TERMINATOR
+    hit.terminator_offset = vec3(0.0);
 #endif
 #ifdef EFFECT_GLASS
     hit.entering = dot(outward, gl_WorldRayDirectionEXT) < 0.0;

@@ -5,4 +5,4 @@ struct TriangleHit {
     Hit hit;
     vec2 barycentrics;
     mat4x3 to_mesh;   // from the world to the mesh's space: gl_WorldToObjectEXT
-};                    // 136 bytes
+};                    // 124 bytes

@@ -44,7 +44,7 @@ void advance(inout Path path, inout Ray ray, TriangleHit seen) {
     if (hit.t >= 0.0) {
         // ANCHOR: light
         Departure from = departure(seen, push.scene.instances.at[hit.instance], ray);
-        start = shadow_start(hit, from, push.light.direction);
+        start = start_of_ray(from, push.light.direction);
         visible = visibility(hit, start, push.light.direction);
         // Fetched after the shadow ray: a material would wait in registers for it.
         MaterialRecord material = push.scene.materials.at[hit.material];

@@ -5,4 +5,4 @@
 struct BodyHit {
     Hit hit;
     bool entering;    // whether the ray came from outside of the body
-};                    // 84 bytes
+};                    // 72 bytes

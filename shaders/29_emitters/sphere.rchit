@@ -20,7 +20,6 @@ void main() {
     hit.t = gl_HitTEXT;
     // A sphere has one normal, and is as round as it looks.
     hit.normal = hit.face;
-    hit.lift = vec3(0.0);
     hit.color = push.scene.materials.at[sphere.material].base_color;
     hit.material = sphere.material;
     hit.triangle = id;

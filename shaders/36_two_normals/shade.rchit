@@ -2,12 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "push.glsl"
-#include "common/hit.glsl"
+#include "hit.glsl"
 #include "common/hit_point.glsl"
+#include "common/terminator.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT SmoothHit seen;
 hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
@@ -17,14 +18,11 @@ void main() {
     Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     HitPoint at = hit_point(instance, triangle, barycentrics);
+    Hit hit;
+    hit.t = gl_HitTEXT;
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
-    if (!SMOOTH_TERMINATOR) {
-        hit.lift = vec3(0.0);
-    }
-    hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
@@ -37,4 +35,9 @@ void main() {
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
+    seen = SmoothHit(hit, vec3(0.0));
+    if (SMOOTH_TERMINATOR) {
+        seen.terminator_offset =
+            terminator_offset(hit.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
+    }
 }

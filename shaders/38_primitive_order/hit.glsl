@@ -6,4 +6,4 @@ struct ShapeHit {
     Hit hit;
     uint kind;        // a triangle, KIND_SPHERE or KIND_BOX: gl_HitKindEXT
     float place;      // of the shape in the list that was built: 0 is the first; -1 for a triangle
-};                    // 88 bytes
+};                    // 76 bytes

@@ -46,7 +46,6 @@ HitPoint hit_point_on_shape() {
     at.face = normalize(vec3(outward * gl_WorldToObjectEXT));
     at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
     at.offset = ROUNDING * dot(abs(at.face), error_bound);
-    at.lift = vec3(0.0);   // a shape is as round as it looks
     return at;
 }
 
@@ -61,7 +60,6 @@ void main() {
     hit.position = at.position;
     hit.offset = at.offset;
     hit.face = at.face;
-    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     // A shape has one normal.
     hit.normal = hit.face;

@@ -12,6 +12,5 @@ struct Hit {
     uint material;    // which material: push.scene.materials.at[material]
     vec3 color;       // the material's colour, its texture already read; for a miss, the sky's
     uint triangle;    // which triangle of the model
-    vec3 lift;        // from the flat triangle to the round surface that its normals pretend
     uint instance;    // which instance: gl_InstanceCustomIndexEXT
-};                    // 80 bytes
+};                    // 68 bytes

@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss.
+// Taught by 41_ray_offset.
 //
 // Where a ray may start that leaves the triangle that was hit, for a closest hit shader: its built-in
 // variables say which ray it was, and where the instance lies.

@@ -14,9 +14,7 @@ struct RayOrigin {
 };
 
 RayOrigin shadow_start(Hit hit) {
-    // On a round surface that is made of triangles, up is where the smooth normal points.
-    bool lifted = hit.lift != vec3(0.0);
-    return RayOrigin(hit.position + hit.offset * hit.face + hit.lift, lifted ? hit.normal : hit.face);
+    return RayOrigin(hit.position + hit.offset * hit.face, hit.face);
 }
 // ANCHOR_END: start
 

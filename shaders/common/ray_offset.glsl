@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss.
+// Taught by 41_ray_offset.
 //
 // Where a ray may start that leaves a triangle: a point above it that no rounding puts below.
 //
@@ -32,36 +32,11 @@ mat3 absolute(mat3 m) {
     return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
 }
 
-// From the flat triangle to the round surface that its normals pretend: the mean of the point's
-// projections onto the planes through the corners, across their normals, where those lie above it.
-// A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
-// the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
-vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 barycentrics,
-        const mat4x3 to_world) {
-    uvec3 corner = instance.triangles.at[triangle];
-    vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
-    Vertex corners[3];
-    vec3 point = vec3(0.0);
-    for (uint k = 0; k < 3; k++) {
-        corners[k] = instance.vertices.at[corner[k]];
-        point += w[k] * corners[k].position;
-    }
-    vec3 up = face * mat3(to_world);
-    vec3 lift = vec3(0.0);
-    for (uint k = 0; k < 3; k++) {
-        vec3 normal = corners[k].normal;
-        normal = faceforward(normal, -up, normal);
-        lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
-    }
-    return mat3(to_world) * lift;
-}
-
 // The part of a hit that says where rays may leave; common/hit.glsl explains its fields.
 struct HitPoint {
     vec3 position;
     float offset;
     vec3 face;
-    vec3 lift;
 };
 
 // Where a ray in direction `ray` meets a triangle of an instance that `to_world` places. What is `const` needs no
@@ -97,6 +72,5 @@ HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 barycentrics, co
     at.face = normalize(dot(face, face) > 1e-37 ? face : ray);
     at.face = faceforward(at.face, ray, at.face);
     at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);
-    at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);
     return at;
 }

@@ -185,12 +185,6 @@ pub fn replace_line(shaders: &Path, file: &str, from: &str, to: &str) {
     std::fs::write(&path, text.replace(from, to)).expect("a copy can be written");
 }
 
-/// A copy of `shaders/` where rays leave triangles as they are, not the round surfaces that they stand for.
-pub fn flat_shaders() -> tempfile::TempDir {
-    let lift = "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);";
-    shaders_with("common/ray_offset.glsl", lift, "at.lift = vec3(0.0);")
-}
-
 /// Copies a folder and all below it.
 pub fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("a folder can be made");

@@ -70,16 +70,16 @@ const EQUALITIES: [Equality; 11] = [
         is_quick: false,
     },
     Equality {
-        what: "16 = 05",
+        what: "16 = 41",
         one: ("16_ray_query", &[]),
-        other: ("05_shadow_miss", &[]),
+        other: ("41_ray_offset", &[]),
         shows_answers: false,
         is_quick: true,
     },
     Equality {
-        what: "16 = 05, hits",
+        what: "16 = 41, hits",
         one: ("16_ray_query", &["show=hit"]),
-        other: ("05_shadow_miss", &["show=hit"]),
+        other: ("41_ray_offset", &["show=hit"]),
         shows_answers: true,
         is_quick: false,
     },
@@ -154,7 +154,7 @@ fn at_a_shared_edge_either_triangle_answers() {
         let eye = format!("camera eye=0,{height},8");
         let hits = |order: &[&str]| {
             let sets = ["--set", &eye, "--set", "camera target=0,0,0", "--set", "show=hit"];
-            render("05_shadow_miss", "97x61", &[&sets, order].concat()).picture
+            render("41_ray_offset", "97x61", &[&sets, order].concat()).picture
         };
         let [one, other] = [&[][..], &["--unordered"]].map(hits);
         let (ties, others) = ties(&one, &other);
@@ -193,7 +193,7 @@ fn nor_is_it_with_eight_seeds() {
 #[test]
 fn what_is_beyond_the_bounds_is_found() {
     let plain = |value| Picture { width: 96, height: 60, pixels: vec![[value; 4]; 96 * 60] };
-    let near = Near::of("05_shadow_miss").both();
+    let near = Near::of("41_ray_offset").both();
     let flips = near.flips(&plain(0.0)) as usize;
     // Two decisions, and for each less than two pixels.
     assert_eq!(flips, 2 * 2);

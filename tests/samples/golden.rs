@@ -48,6 +48,7 @@ golden! {
     position_fetch,
     primitive_order,
     ray_cones,
+    ray_offset,
     ray_query,
     ray_query_raster,
     reflection,

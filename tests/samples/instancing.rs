@@ -13,7 +13,7 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{Chapter, Near, Run, expected, flat_shaders, same_hits};
+use run::{Chapter, Near, Run, expected, same_hits};
 use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]
@@ -127,9 +127,8 @@ fn hits_agree_under_every_matrix() {
 fn no_matrix_makes_a_triangle_shadow_itself() {
     let viewed = ViewedScene::specimens();
     let hits = viewed.hits(&[SPECIMEN]);
-    let shaders = flat_shaders();
     let sets = [SPECIMEN, "show=shadow origin"];
-    let origins = chapter().shaders(shaders.path()).sets(&sets).picture();
+    let origins = chapter().sets(&sets).picture();
     let sun = Sun { azimuth: 300.0, elevation: 22.0, ..Sun::default() }.light().direction;
     let (mut lit, mut dark) = (0, 0);
     for ((ray, hit), &[x, y, z, seen]) in hits.iter().zip(&origins.pixels).step_by(3) {

@@ -11,7 +11,7 @@ use serde_json::{Map, json};
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{Chapter, expected, flat_shaders, replace_line, same_answers, shaders_with};
+use run::{Chapter, copy_of_shaders, expected, replace_line, same_answers, shaders_with};
 use tempfile::TempDir;
 
 const NAME: &str = "26_leaving_a_surface";
@@ -54,7 +54,7 @@ struct Setting<'a> {
     camera: Camera,
     directions: Picture,
     hits: Picture,
-    /// A copy of the shaders where rays leave flat triangles.
+    /// A copy of the shaders, in which a line may be changed.
     shaders: TempDir,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Setting<'a> {
         let show = |view| chapter(size).arithmetic(arithmetic).sets(&sets).sets(&[view]).picture();
         let (directions, hits) = (show("show=ray direction"), show("show=hit"));
         let (exact, camera) = (reference(&scene), scene.camera);
-        Self { arithmetic, exact, camera, sets, size, directions, hits, shaders: flat_shaders() }
+        Self { arithmetic, exact, camera, sets, size, directions, hits, shaders: copy_of_shaders() }
     }
 
     fn show(&self, rule: &str, sets: &[&str]) -> Picture {
@@ -231,7 +231,7 @@ impl Setting<'_> {
     /// Judges reflected rays where a rule's step is multiplied by `factor`.
     fn scaled(&mut self, (rule, line): (&str, &str), factor: f64) -> Tally {
         let scaled = line.replace("* from.normal", &format!("* {factor:?} * from.normal"));
-        self.shaders = flat_shaders();
+        self.shaders = copy_of_shaders();
         replace_line(self.shaders.path(), "26_leaving_a_surface/origin.glsl", line, &scaled);
         self.reflected(rule, 1)
     }

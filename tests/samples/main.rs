@@ -30,6 +30,7 @@ mod pixel;
 mod position_fetch;
 mod primitive_order;
 mod ray_cones;
+mod ray_offset;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;

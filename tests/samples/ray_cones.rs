@@ -61,9 +61,9 @@ fn a_point_gives_the_picture_of_05() {
         let chapter = Chapter::new(name).size(SIZE).scene("samples/assets/chess.obj");
         chapter.sets(&camera).sets(sets).picture()
     };
-    let parent = of("05_shadow_miss", &[]);
+    let parent = of("41_ray_offset", &[]);
     same_colors("a point", NAME, &of(NAME, &["footprint=point"]), &parent);
-    let hits = of("05_shadow_miss", &["show=hit"]);
+    let hits = of("41_ray_offset", &["show=hit"]);
     for footprint in FOOTPRINTS {
         let footprint = format!("footprint={footprint}");
         same_answers(&footprint, NAME, &of(NAME, &["show=hit", &footprint]), &hits);

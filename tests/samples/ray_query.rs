@@ -1,4 +1,4 @@
-//! 16_ray_query: the picture of 05_shadow_miss from a compute shader, equal to the bit.
+//! 16_ray_query: the picture of 41_ray_offset from a compute shader, equal to the bit.
 
 use common::app::Picture;
 use common::gpu::{ComputePipeline, Gpu, GpuOptions, Requirements};
@@ -8,7 +8,7 @@ use serde_json::json;
 
 const NAME: &str = "16_ray_query";
 /// The chapter that every test below compares with.
-const PIPELINE: &str = "05_shadow_miss";
+const PIPELINE: &str = "41_ray_offset";
 /// No multiple of any workgroup's sides.
 const SIZE: &str = "121x77";
 const WORKGROUPS: [&str; 5] = ["8x4", "8x8", "16x4", "32x1", "16x16"];

@@ -142,12 +142,9 @@ fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
 fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     let scene = Scene::chess_of_metal().unwrap();
     let exact = reference(&scene);
-    // Where nothing is lifted, a mirrored ray starts where the shadow ray of the same hit does.
-    let lifts = "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);";
-    let flat = shaders_with("common/ray_offset.glsl", lifts, "at.lift = vec3(0.0);");
+    // A mirrored ray starts where the shadow ray of the same hit does.
     let show = |sets: &[&str]| {
         chapter("240x150")
-            .shaders(flat.path())
             .sets(&["minimum contribution=0"])
             .sets(sets)
             .picture()

@@ -9,13 +9,35 @@ use reference::Ray;
 use reference::scene::Scene as Exact;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{Chapter, flat_shaders};
+use run::Chapter;
 
 const SIZE: &str = "240x150";
 
 /// A picture by shaders of a folder, with these controls set.
 pub fn picture_by(shaders: &Path, name: &str, sets: &[&str]) -> Picture {
     Chapter::new(name).size(SIZE).shaders(shaders).sets(sets).picture()
+}
+
+/// Differences of a picture's shadows (`show=shadow`) from the right ones.
+pub struct Shadows {
+    /// Pixels that are rightly lit.
+    pub lit: usize,
+    /// Those of them that are dark.
+    pub dark: usize,
+    /// Lit pixels that are rightly dark.
+    pub leaks: usize,
+}
+
+impl Shadows {
+    pub fn compare(right: &Picture, shown: &Picture) -> Self {
+        let is = |pixel: &[f32; 4], value: f32| pixel[..3] == [value; 3];
+        let pairs = || right.pixels.iter().zip(&shown.pixels);
+        Self {
+            lit: right.pixels.iter().filter(|pixel| is(pixel, 1.0)).count(),
+            dark: pairs().filter(|(a, b)| is(a, 1.0) && is(b, 0.0)).count(),
+            leaks: pairs().filter(|(a, b)| is(a, 0.0) && is(b, 1.0)).count(),
+        }
+    }
 }
 
 /// A ray from a point to the light, of the very bits that a shader in f32 makes of them.
@@ -36,9 +58,9 @@ pub struct Seen {
 }
 
 /// The surface that each pixel of a chapter saw, but for pixels that saw the sky.
-pub fn seen(exact: &Exact, shaders: &Path, name: &str) -> Vec<Seen> {
+pub fn seen(exact: &Exact, name: &str, sets: &[&str]) -> Vec<Seen> {
     let camera = Scene::chess().unwrap().camera;
-    let show = |view| picture_by(shaders, name, &[view]);
+    let show = |view| Chapter::new(name).size(SIZE).sets(sets).sets(&[view]).picture();
     let (hits, directions) = (show("show=hit"), show("show=ray direction"));
     let origins = show("show=shadow origin");
     let rays = rays(&camera, &directions);
@@ -67,11 +89,10 @@ pub struct Answers {
     pub turned_away: usize,
 }
 
-/// Holds each shadow ray of a chapter to the reference: from a triangle as it is, or as round as it looks.
-pub fn hold_answers(name: &str, shadow: Shadow, is_flat: bool) -> Answers {
+/// Compares each shadow ray of a chapter with the reference.
+pub fn hold_answers(name: &str, shadow: Shadow) -> Answers {
     let exact = reference(&Scene::chess().unwrap());
-    let shaders = if is_flat { flat_shaders() } else { run::copy_of_shaders() };
-    let surfaces = seen(&exact, shaders.path(), name);
+    let surfaces = seen(&exact, name, &[]);
     let (mut lit, mut edges, mut sides) = (0, 0, 0);
     for surface in &surfaces {
         lit += usize::from(surface.lit);
@@ -85,16 +106,16 @@ pub fn hold_answers(name: &str, shadow: Shadow, is_flat: bool) -> Answers {
         } else if !candidates.is_empty() {
             edges += 1;
         } else if !surface.lit {
-            // The way is free, so the shader must have found the light below the surface.
-            // Without the lift that is the triangle; the cosine is off by a few roundings.
+            // The way is free, so the shader must have found the light below the triangle; the cosine is
+            // off by a few roundings.
             let cosine = surface.normal.dot(ray.direction) / ray.direction.length();
-            assert!(!is_flat || cosine < 1e-6, "dark: {ray:?} {cosine}");
+            assert!(cosine < 1e-6, "dark: {ray:?} {cosine}");
             sides += 1;
         }
     }
     let all = surfaces.len();
     println!(
-        "{name}, flat {is_flat}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away"
+        "{name}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away"
     );
     assert!(lit > all / 4 && lit < all * 9 / 10, "{lit} of {all}");
     // Most of those start beside an edge that the own triangle shares with one in the same plane.
@@ -117,7 +138,7 @@ pub struct Origins {
 /// The question itself: is the segment from the hit, exactly, to the light blocked?
 pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
     let exact = reference(&Scene::chess().unwrap());
-    let surfaces = seen(&exact, flat_shaders().path(), name);
+    let surfaces = seen(&exact, name, &[]);
     let mut differ = 0;
     let (mut highest, mut highest_on_slivers, mut farthest) = (0.0, 0.0, 0.0);
     for surface in &surfaces {

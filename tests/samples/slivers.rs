@@ -7,8 +7,8 @@ use run::Chapter;
 
 /// Views of the test: pictures, and the views that say where rays leave a surface.
 const VIEWS: [(&str, &[&str]); 10] = [
-    ("05_shadow_miss", &[]),
-    ("05_shadow_miss", &["show=shadow origin"]),
+    ("41_ray_offset", &[]),
+    ("41_ray_offset", &["show=shadow origin"]),
     ("06_reflection", &[]),
     ("06_reflection", &["show=shadow origin", "bounce=0"]),
     ("12_infinite_plane", &[]),

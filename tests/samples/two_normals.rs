@@ -1,35 +1,31 @@
-//! 36_two_normals: what the lift of a shadow ray's start changes, and what it does not.
+//! 36_two_normals: what the terminator offset of a shadow ray changes, and what it does not.
 
 use common::scene::Scene;
 use serde_json::json;
 
-use crate::shadow_rays::{picture_by, seen};
+use crate::shadow_rays::seen;
 use run::primary_hits::reference;
-use run::{copy_of_shaders, expected, flat_shaders, render, same_answers, same_colors};
+use run::{expected, render, same_answers, same_colors};
 
 const NAME: &str = "36_two_normals";
 const SIZE: &str = "240x150";
 
+const OFF: &str = "smooth terminator=off";
+
 #[test]
-fn with_the_cure_it_is_the_picture_of_05() {
-    let [cured, of_05] = [NAME, "05_shadow_miss"].map(|name| render(name, SIZE, &[]).picture);
-    same_colors("36 and 05", NAME, &cured, &of_05);
+fn without_the_cure_it_is_the_picture_of_41() {
+    let off = render(NAME, SIZE, &["--set", OFF]).picture;
+    same_colors("36 and 41", NAME, &off, &render("41_ray_offset", SIZE, &[]).picture);
+    let origins = ["--set", "show=shadow origin"];
+    let off = render(NAME, SIZE, &[&["--set", OFF], &origins[..]].concat()).picture;
+    let flat = render("41_ray_offset", SIZE, &origins).picture;
+    same_answers("36 without the cure and 41", NAME, &off, &flat);
 }
 
 #[test]
-fn without_the_cure_rays_leave_the_triangles_themselves() {
-    let sets = ["show=shadow origin"];
-    let off = ["--set", "smooth terminator=off", "--set", sets[0]];
-    let off = render(NAME, SIZE, &off).picture;
-    let flat = picture_by(flat_shaders().path(), "05_shadow_miss", &sets);
-    same_answers("36 without and 05 on flat triangles", NAME, &off, &flat);
-}
-
-#[test]
-fn lifting_the_origin_changes_only_what_turns_away_from_the_light() {
+fn the_offset_changes_only_what_turns_away_from_the_light() {
     let exact = reference(&Scene::chess().unwrap());
-    let [flat, smooth] =
-        [flat_shaders(), copy_of_shaders()].map(|shaders| seen(&exact, shaders.path(), NAME));
+    let [flat, smooth] = [&[OFF][..], &[]].map(|sets| seen(&exact, NAME, sets));
     let (mut lifted, mut lit, mut dark, mut highest) = (0, 0, 0, 0.0);
     for (flat, smooth) in flat.iter().zip(&smooth) {
         let height = f64::from((smooth.origin - flat.origin).length());

@@ -7,7 +7,6 @@ use reference::Ray;
 use reference::ulp::ulp_error;
 
 use super::{NAME, Octahedron, PLANE, chapter, level, pieces};
-use run::flat_shaders;
 use run::primary_hits::rays;
 
 /// The eye of the board preset, and its image in the plane.
@@ -107,9 +106,8 @@ fn what_mirrors_mirrors_the_plane() {
         "camera eye=-1,1.4,2.4",
         "camera target=0,1,0",
     ];
-    // A mirrored ray starts where the shadow ray of the same hit does, if nothing is lifted.
-    let flat = flat_shaders();
-    let show = |more: &[&str]| model.picture_by(flat.path(), NAME, &[&sets[..], more].concat());
+    // A mirrored ray starts where the shadow ray of the same hit does.
+    let show = |more: &[&str]| model.picture(&[&sets[..], more].concat());
     let [once, twice] = ["depth=0", "depth=1"].map(|depth| show(&[depth]));
     let [hits, normals, starts, directions] = ["hit", "normal", "shadow origin", "ray direction"]
         .map(|view| show(&[&format!("show={view}")]));

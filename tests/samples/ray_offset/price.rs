@@ -1,4 +1,4 @@
-//! Price of a ray of 05_shadow_miss: each part taken out in turn, on the clock and for GPUs' compilers.
+//! Price of a ray of 41_ray_offset: each part taken out in turn, on the clock and for GPUs' compilers.
 
 use run::{command, expected, shaders_with};
 use serde_json::{Map, Value};
@@ -8,10 +8,10 @@ use super::NAME;
 
 /// A part, the file and the line that it stands in, and what stands there without it. The picture is another then, or
 /// none: it is not looked at.
-const PARTS: [(&str, &str, &str, &str); 6] = [
+const PARTS: [(&str, &str, &str, &str); 5] = [
     (
         "shadow ray",
-        "05_shadow_miss/camera.rgen",
+        "41_ray_offset/camera.rgen",
         "visible = visibility(start, push.light.direction, 1e30);",
         "visible = 1.0;",
     ),
@@ -21,22 +21,16 @@ const PARTS: [(&str, &str, &str, &str); 6] = [
         "at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);",
         "at.offset = 1e-4;",
     ),
-    (
-        "lift",
-        "common/ray_offset.glsl",
-        "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);",
-        "at.lift = vec3(0.0);",
-    ),
-    ("texture", "05_shadow_miss/shade.rchit", "if (material.base_texture >= 0) {", "if (false) {"),
+    ("texture", "41_ray_offset/shade.rchit", "if (material.base_texture >= 0) {", "if (false) {"),
     (
         "original",
-        "05_shadow_miss/shade.rchit",
+        "41_ray_offset/shade.rchit",
         "uint triangle = instance.original.at[gl_PrimitiveID];",
         "uint triangle = gl_PrimitiveID;",
     ),
     (
         "store",
-        "05_shadow_miss/camera.rgen",
+        "41_ray_offset/camera.rgen",
         "imageStore(picture, ivec2(id), pixel);",
         "if (pixel.x == -7.0) imageStore(picture, ivec2(id), pixel);",
     ),
