@@ -37,6 +37,8 @@ const DRAWINGS: &[Drawing] = &[
     ("any_hit_order", calls::any_hit_order),
     ("barycentrics", rays::barycentrics),
     ("bent_cones", cones::bent),
+    ("callable_calls", calls::callable_calls),
+    ("camera_ray", rays::camera_ray),
     ("edge_plane", rays::edge_plane),
     ("ellipse", cones::ellipse),
     ("footprint", rays::footprint),
@@ -63,6 +65,7 @@ const DRAWINGS: &[Drawing] = &[
     ("table_of_foundation", table::chapter_01),
     ("table_of_shadow_miss", table::chapter_05),
     ("thin_lens", lens::thin_lens),
+    ("trace_calls", calls::trace_calls),
     ("two_lights", shadows::two_lights),
 ];
 

@@ -84,6 +84,87 @@ pub fn from_raster() -> String {
     s.svg()
 }
 
+/// The ray of one pixel of 01, from the eye through the picture plane to the triangle.
+pub fn camera_ray() -> String {
+    let mut s = Sheet::new([840, 350], "One ray through one pixel");
+    // Seen from the side and a little from above: the view goes to the right, along -z.
+    let eye = DVec3::new(0.0, 0.0, 3.0);
+    let shown =
+        |p: DVec3| [70.0 + 150.0 * (3.0 - p.z) + 76.0 * p.x, 196.0 - 122.0 * p.y + 34.0 * p.x];
+    // The camera and the triangle are those of the chapter.
+    let (half, aspect) = (0.4, 1.6);
+    let placed =
+        |p: DVec3| DVec3::new(0.8 * p.x + 0.6 * p.z + 0.12, p.y + 0.05, -0.6 * p.x + 0.8 * p.z);
+    let corners = [(-1.1, -0.75), (1.1, -0.75), (0.0, 0.9)];
+    let [a, b, c] = corners.map(|(x, y)| placed(DVec3::new(x, y, 0.0)));
+    s.polygon(&[a, b, c].map(shown), YOURS, BROWN);
+    let (columns, rows) = (8, 5);
+    let on_picture = |column: f64, row: f64| {
+        let (x, y) = (2.0 * column / f64::from(columns) - 1.0, 1.0 - 2.0 * row / f64::from(rows));
+        DVec3::new(x * aspect * half, y * half, 2.0)
+    };
+    let pixel = (4.0, 1.0);
+    let direction = (on_picture(pixel.0 + 0.5, pixel.1 + 0.5) - eye).normalize();
+    let normal = (b - a).cross(c - a);
+    let t = normal.dot(a - eye) / normal.dot(direction);
+    let hit = eye + t * direction;
+    s.dashes(&[hit, eye + (t + 0.9) * direction].map(shown), LINE, 1.2);
+    s.line(&[eye + direction, hit].map(shown), LINE, 1.6);
+    for row in 0..rows {
+        for column in 0..columns {
+            let (x, y) = (f64::from(column), f64::from(row));
+            let chosen = (x, y) == pixel;
+            let square = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)];
+            let square = square.map(|(x, y)| shown(on_picture(x, y)));
+            s.polygon(
+                &square,
+                if chosen { YOURS } else { WHITE },
+                if chosen { RED } else { FAINT },
+            );
+        }
+    }
+    let frame = [(0.0, 0.0), (8.0, 0.0), (8.0, 5.0), (0.0, 5.0)];
+    s.polygon(&frame.map(|(x, y)| shown(on_picture(x, y))), "none", LINE);
+    let chosen = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    let chosen = chosen.map(|(x, y)| shown(on_picture(pixel.0 + x, pixel.1 + y)));
+    s.polygon(&chosen, YOURS, RED);
+    s.arrow(&[eye, eye + direction].map(shown));
+    s.dot(shown(eye), 5.0, LINE);
+    s.dot(shown(hit), 5.0, BROWN);
+    let at = shown(eye);
+    s.strong([at[0], at[1] - 30.0], Middle, "eye");
+    s.note([at[0], at[1] - 13.0], Middle, "o = (0, 0, 3)");
+    let middle = shown(eye + 0.5 * direction);
+    s.strong([middle[0], middle[1] - 12.0], Middle, "d");
+    let foot = shown(on_picture(4.0, 5.0));
+    s.strong([foot[0], foot[1] + 44.0], Middle, "picture plane");
+    s.note([foot[0], foot[1] + 61.0], Middle, "at distance 1");
+    let top = shown(on_picture(pixel.0 + 0.5, 0.0));
+    s.strong([top[0] + 4.0, top[1] - 30.0], Middle, "pixel");
+    s.line(
+        &[[top[0] + 4.0, top[1] - 24.0], shown(on_picture(pixel.0 + 0.5, pixel.1 + 0.2))],
+        RED,
+        1.2,
+    );
+    // The distance, beside the ray.
+    let end = shown(hit);
+    let below = |[x, y]: Point, down: f64| [x + 0.1 * down, y + down];
+    s.line(&[below(at, 16.0), below(end, 16.0)], SEA, 1.6);
+    for tip in [at, end] {
+        s.line(&[below(tip, 11.0), below(tip, 21.0)], SEA, 1.6);
+    }
+    let half_way = below(shown(eye + 0.6 * t * direction), 34.0);
+    s.strong(half_way, Middle, "t");
+    s.strong([end[0] + 70.0, end[1] - 64.0], Start, "the hit: o + t·d");
+    s.note([end[0] + 70.0, end[1] - 47.0], Start, &format!("t = {t:.2} here"));
+    s.line(&[[end[0] + 66.0, end[1] - 62.0], [end[0] + 5.0, end[1] - 6.0]], BROWN, 1.2);
+    let low = shown(b);
+    s.strong([low[0] + 14.0, low[1] + 4.0], Start, "triangle");
+    let after = shown(eye + (t + 0.9) * direction);
+    s.note([after[0] + 8.0, after[1] + 4.0], Start, "on, to tmax");
+    s.svg()
+}
+
 /// A point of a triangle and its three weights.
 pub fn barycentrics() -> String {
     let mut s = Sheet::new([840, 330], "Barycentric coordinates: three weights that add up to 1");

@@ -8,8 +8,8 @@ pub fn two_levels() -> String {
     let mut s = Sheet::new([840, 400], "Acceleration structures");
     s.card([24.0, 52.0], [792.0, 126.0], BLUE, "", &[]);
     s.title([40.0, 76.0], Start, "Top level (TLAS)");
-    s.note([800.0, 76.0], End, "one a scene: a tree over instances");
-    let instances = ["white rook", "white rook", "black rook", "pawn", "board"];
+    s.note([800.0, 76.0], End, "one per scene: a tree over instances");
+    let instances = ["white rook", "white rook", "black rook", "pawn", "light squares"];
     for (number, piece) in instances.into_iter().enumerate() {
         let x = 40.0 + 154.0 * number as f64;
         let title = format!("instance {number}");
@@ -20,7 +20,7 @@ pub fn two_levels() -> String {
     s.note(
         [800.0, 362.0],
         End,
-        "one a mesh: a tree over triangles or boxes, in the mesh’s own space",
+        "one per mesh: a tree over triangles or boxes, in the mesh’s own space",
     );
     s.card([117.0, 266.0], [298.0, 66.0], WHITE, "rook", &["2952 triangles"]);
     s.card([502.0, 266.0], [144.0, 66.0], WHITE, "pawn", &["2128 triangles"]);
@@ -37,7 +37,7 @@ pub fn two_levels() -> String {
 pub fn address_chain() -> String {
     let mut s = Sheet::new([840, 360], "From a hit to its vertices");
     s.card([24.0, 96.0], [126.0, 64.0], DEVICE, "push constants", &["scene.instances"]);
-    s.card([24.0, 246.0], [126.0, 64.0], GREEN, "the hit", &["what the device says"]);
+    s.card([24.0, 246.0], [126.0, 64.0], GREEN, "the hit", &["from the device"]);
     let corners = ["0: position, …", "1: position, …", "2: position, …", "3: position, …"];
     // Of each its place, width, name and rows, and which of them are chosen.
     type Column<'a> = (f64, f64, &'a str, [&'a str; 4], &'a [usize]);

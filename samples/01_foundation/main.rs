@@ -296,7 +296,7 @@ fn render(
     let (build, trace) = (commands[0], commands[1]);
     let begin = vk::CommandBufferBeginInfo::default();
 
-    // ---- 4. Bottom level: the triangle, in a form in which a ray finds it
+    // ---- 4. Bottom level: an acceleration structure for the triangle
 
     // ANCHOR: blas
     let input = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR;
@@ -497,6 +497,7 @@ fn render(
 
     // ---- 9. The frame, recorded once: trace, then copy
 
+    // ANCHOR: descriptors
     let levels = [top.handle];
     let mut level =
         vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&levels);
@@ -513,6 +514,7 @@ fn render(
             .descriptor_type(vk::DescriptorType::STORAGE_IMAGE)
             .image_info(&images),
     ];
+    // ANCHOR_END: descriptors
     let layers = vk::ImageSubresourceLayers::default().aspect_mask(color).layer_count(1);
     let pixel_copy =
         [vk::BufferImageCopy::default().image_subresource(layers).image_extent(extent)];

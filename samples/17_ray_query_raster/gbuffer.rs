@@ -173,6 +173,7 @@ impl Targets {
                 .dst_stage_mask(tests)
                 .dst_access_mask(both),
         ];
+        // ANCHOR: rendering
         let clear = vk::ClearColorValue { uint32: NOTHING };
         let colors = [vk::RenderingAttachmentInfo::default()
             .image_view(self.seen.view)
@@ -200,6 +201,7 @@ impl Targets {
         unsafe {
             device.cmd_pipeline_barrier2(frame.cmd, &dependency);
             device.cmd_begin_rendering(frame.cmd, &info);
+            // ANCHOR_END: rendering
             device.cmd_set_viewport(frame.cmd, 0, &[viewport]);
             device.cmd_set_scissor(frame.cmd, 0, &[extent.into()]);
         }

@@ -142,6 +142,7 @@ impl Levels {
         let shown = world.shown(frame, plan.shutter, plan.turns);
         let movers = movers(world, &shown);
         self.movers.update(cmd, &movers)?;
+        // ANCHOR: swept
         if plan.method == Method::Swept {
             let count = movers.len() as u32;
             let addresses = (self.movers.address.into(), world.addresses.instances);
@@ -150,6 +151,7 @@ impl Levels {
                 level.rebuild(cmd, &[self.sweep.geometry(at)], &self.scratch)?;
             }
         }
+        // ANCHOR_END: swept
         let mut instances = self.instances(world, &shown, plan);
         self.moves = !movers.is_empty();
         self.used = [instances.len() as u32, movers.iter().map(|mover| mover.triangles).sum()];

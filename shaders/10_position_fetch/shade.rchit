@@ -11,10 +11,10 @@ hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: normal, material and light give the colour.
 void main() {
+    // ANCHOR: corners
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR: corners
     // Object space, in the order of the indices that the build was given.
     vec3 corners[3];
     Surface surface;

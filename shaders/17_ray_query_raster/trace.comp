@@ -78,6 +78,7 @@ void main() {
     uvec2 id = push.band.first + at;
     vec2 point = vec2(id) + 0.5;
     vec3 direction = ray_direction(push.camera, point, imageSize(picture));
+    // ANCHOR: surface
     Seen seen = PRIMARY == PRIMARY_RASTER ? by_raster(id) : by_ray(push.camera.origin, direction);
     Hit hit;
     hit.t = -1.0;
@@ -88,6 +89,7 @@ void main() {
     if (seen.instance != NOTHING) {
         report(hit, seen, direction);
         RayOrigin start = shadow_start(hit);
+        // ANCHOR_END: surface
         MaterialRecord material = push.scene.materials.at[hit.material];
         visible = visibility(start, push.light.direction, 1e30);
         if (push.occlusion_rays > 0) {

@@ -32,6 +32,7 @@ void main() {
     if (SHOW == SHOW_NORMAL) {
         color = 0.5 + 0.5 * normal;
     }
+    // ANCHOR: lines
     // Darker on a light surface, lighter on a dark one. The fourth number is what the line covers.
     float coverage = line_coverage(barycentrics);
     float brightness = dot(color, vec3(0.2126, 0.7152, 0.0722));
@@ -40,4 +41,5 @@ void main() {
         ink = vec3(0.0);
     }
     payload = vec4(mix(color, ink, coverage), coverage);
+    // ANCHOR_END: lines
 }

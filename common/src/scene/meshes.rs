@@ -61,6 +61,7 @@ impl MeshesOnGpu {
         let ordered = meshes.iter().zip(&orders).map(in_order);
         let (_ordered, at_ordered) = Buffer::with_arrays(gpu, "ordered triangles", ordered, usage)?;
         let (opaque, fetch) = (opaque(scene), options.position_fetch);
+        // ANCHOR: bottom_levels
         let mut geometries = Vec::with_capacity(meshes.len());
         for (index, mesh) in meshes.iter().enumerate() {
             geometries.push([Geometry::Triangles {
@@ -78,6 +79,7 @@ impl MeshesOnGpu {
         let inputs = meshes.iter().zip(&geometries);
         let inputs: Vec<_> = inputs.map(|(mesh, list)| (mesh.name.as_str(), &list[..])).collect();
         let blas = AccelerationStructure::build(gpu, &inputs, options)?;
+        // ANCHOR_END: bottom_levels
         if fetch {
             records.iter_mut().for_each(|record| record.vertices = Address::default());
             buffers.pop();

@@ -10,6 +10,7 @@ const BEFORE: &[(&str, &str)] = &[
     ("reading.md", "How to read this book"),
     ("map.md", "The map"),
     ("from-raster.md", "From raster to rays"),
+    ("raster-dictionary.md", "A dictionary for rasteriser people"),
     ("own-program.md", "Your own program"),
 ];
 const AFTER: &[(&str, &str)] = &[

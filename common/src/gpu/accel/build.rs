@@ -108,6 +108,7 @@ pub(super) fn record(
 ) {
     let geometries = builds.iter().map(|build| build.structure.plan.described(build.geometries));
     let geometries: Vec<_> = geometries.collect();
+    // ANCHOR: update
     let infos = builds.iter().zip(&geometries).map(|(build, geometries)| {
         let AccelerationStructure { plan, handle, .. } = build.structure;
         let mut info = plan.info(geometries).mode(mode).dst_acceleration_structure(*handle);
@@ -116,6 +117,7 @@ pub(super) fn record(
         }
         info.scratch_data(vk::DeviceOrHostAddressKHR { device_address: build.scratch })
     });
+    // ANCHOR_END: update
     let infos: Vec<_> = infos.collect();
     let ranges: Vec<_> = builds.iter().map(|build| ranges(build.geometries)).collect();
     let ranges: Vec<_> = ranges.iter().map(Vec::as_slice).collect();

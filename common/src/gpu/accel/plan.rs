@@ -77,6 +77,7 @@ impl Plan {
         geometries: &'a [vk::AccelerationStructureGeometryKHR],
     ) -> vk::AccelerationStructureBuildGeometryInfoKHR<'a> {
         use vk::BuildAccelerationStructureFlagsKHR as Flags;
+        // ANCHOR: flags
         let mut flags = Flags::PREFER_FAST_TRACE;
         if self.options.updatable {
             flags |= Flags::ALLOW_UPDATE;
@@ -87,6 +88,7 @@ impl Plan {
         if self.options.data_access {
             flags |= Flags::ALLOW_DATA_ACCESS;
         }
+        // ANCHOR_END: flags
         vk::AccelerationStructureBuildGeometryInfoKHR::default()
             .ty(self.level())
             .flags(flags)
