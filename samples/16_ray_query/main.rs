@@ -1,4 +1,4 @@
-//! 16 · Ray query: the picture of 05 from a compute shader, which runs the traversal itself.
+//! 16 · Ray query: the picture of 41 from a compute shader, which runs the traversal itself.
 //!
 //! New since 41_ray_offset: a compute pipeline with one shader and no table; a query for each ray, in place
 //! of hit groups, miss shaders and payloads; workgroups, whose shape is a choice.

@@ -40,7 +40,7 @@ impl Near {
                 // A second decision: a hole (03, 15) or a random number (03), what a shadow ray meets (04 and later),
                 // which of two faces of a solid is first (22), which cell of a lattice a point is in (13). Those
                 // of rays to the sky move a colour by a sixteenth of the ambient light, a few steps of 255 (17).
-                3 | 4 | 5 | 8 | 13..=18 | 21..=23 | 30 | 34 | 36..=39 => (2, 0.00125),
+                3 | 4 | 5 | 8 | 13..=18 | 21..=23 | 30 | 34 | 36..=39 | 41 => (2, 0.00125),
                 // Rays that round mirrors send on: an error grows by the way over the radius each time, and two
                 // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
                 // factor.

@@ -53,7 +53,7 @@ fn an_offset_cures_acne() {
         found.insert(format!("{offset}.leaks"), leaks.into());
         match offset {
             "0" => assert!(dark > lit / 10, "{dark} of {lit}"),
-            "1e-3" => assert!(dark + leaks < 100, "{dark} dark, {leaks} leaks"),
+            "1e-3" => assert!(dark + leaks < 200, "{dark} dark, {leaks} leaks"),
             _ => assert!(leaks > 100, "{leaks} leaks"),
         }
     }

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::ulp::ulp_error;
 
-use super::{NAME, Octahedron, PLANE, chapter, level, pieces};
+use super::{Octahedron, PLANE, chapter, level, pieces};
 use run::primary_hits::rays;
 
 /// The eye of the board preset, and its image in the plane.
