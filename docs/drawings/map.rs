@@ -7,7 +7,7 @@ use std::path::Path;
 use manuscript::project::{Chapter, Project, Way};
 
 use crate::sheet::Anchor::{End, Middle, Start};
-use crate::sheet::{BLUE, DEVICE, GREEN, LEAF, LINE, SEA, Sheet, WHITE, YOURS};
+use crate::sheet::{BLUE, BROWN, DEVICE, GREEN, LEAF, LINE, SEA, Sheet, WHITE, YOURS};
 
 /// The height of a row and of a card, and how far a chapter stands to the right of the one it comes from.
 const ROW: f64 = 27.0;
@@ -15,11 +15,10 @@ const CARD: f64 = 21.0;
 const STEP: f64 = 18.0;
 /// The left edge, and that of the first row.
 const LEFT: f64 = 14.0;
-const TOP: f64 = 122.0;
-/// The line of the first way: its top, the height of a card, and the room between two cards.
-const FIRST: f64 = 54.0;
-const FIRST_CARD: f64 = 28.0;
-const GAP: f64 = 22.0;
+const TOP: f64 = 168.0;
+/// The line of the first way: its height, and the radius of a stop.
+const FIRST: f64 = 62.0;
+const FIRST_RADIUS: f64 = 15.0;
 /// From way to way.
 const LANE: f64 = 28.0;
 /// What a letter is wide at most, on average, plain and strong, and the room beside a card's words.
@@ -40,23 +39,23 @@ pub fn chapters() -> String {
 
 /// The first way as one line from left to right, which ends in a program of the reader's own.
 fn first_line(s: &mut Sheet, project: &Project, way: &Way, width: f64) {
-    let stops: Vec<String> = (way.chapters.iter())
+    let stops: Vec<(&str, &str)> = (way.chapters.iter())
         .filter_map(|number| project.chapters.iter().find(|chapter| chapter.number() == *number))
-        .map(Chapter::heading)
-        .chain(["your own program".to_owned()])
+        .map(|chapter| (chapter.number(), chapter.title.as_str()))
+        .chain([("", "your own program")])
         .collect();
-    let room = width - 2.0 * LEFT - GAP * (stops.len() - 1) as f64;
-    let letters: usize = stops.iter().map(|stop| stop.chars().count() + 2).sum();
-    let mut x = LEFT;
-    for (index, stop) in stops.iter().enumerate() {
-        let card = room * (stop.chars().count() + 2) as f64 / letters as f64;
-        let middle = FIRST + FIRST_CARD / 2.0;
-        if index > 0 {
-            s.arrow(&[[x - GAP + 2.0, middle], [x - 3.0, middle]]);
+    let room = (width - 2.0 * LEFT) / stops.len() as f64;
+    let place = |stop: usize| LEFT + room * (stop as f64 + 0.5);
+    for (stop, &(number, title)) in stops.iter().enumerate() {
+        let x = place(stop);
+        if stop > 0 {
+            s.arrow(&[[place(stop - 1) + FIRST_RADIUS, FIRST], [x - FIRST_RADIUS - 2.0, FIRST]]);
         }
-        s.card([x, FIRST], [card, FIRST_CARD], GROUNDS[0], "", &[]);
-        s.strong([x + card / 2.0, middle + 4.5], Middle, stop);
-        x += card + GAP;
+        s.circle([x, FIRST], FIRST_RADIUS, GROUNDS[0], BROWN);
+        s.strong([x, FIRST + 4.5], Middle, number);
+        for (row, word) in title.split(' ').enumerate() {
+            s.note([x, FIRST + FIRST_RADIUS + 16.0 + 13.0 * row as f64], Middle, word);
+        }
     }
 }
 

@@ -45,7 +45,7 @@ figures.add("start", figure => {
     return () => {
         const corners = figure.word("point") === "by corners";
         const [distance, step, gap] = ["distance of the eye", "step", "height of the sheet"].map(name => figure.number(name));
-        // What rounding costs the point by corners (chapter 05, derivation, step 1) and the start.
+        // What rounding costs the point by corners (chapter 41, derivation, step 1) and the start.
         const bound = U * normal.reduce((sum, n, i) => sum + Math.abs(n) * (2 * Math.max(A[i], B[i]) + 3 * edge[i]), 0);
         let acne = 0, leaks = 0;
         for (let i = 0; i < RAYS; i++) {

@@ -1,4 +1,4 @@
-//! The start of 05's shadow ray, held to what it hits.
+//! The start of 41's shadow ray, held to what it hits.
 
 use glam::DVec3;
 use reference::Ray;
@@ -9,7 +9,7 @@ use super::{found, shown};
 use crate::browser::Browser;
 use crate::reading::address;
 
-const PAGE: &str = "05_shadow_miss.html";
+const PAGE: &str = "41_ray_offset.html";
 
 #[test]
 #[ignore = "nightly only: in a browser"]
