@@ -8,8 +8,8 @@
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
-// The hit point, computed from the sphere alone: t is off by more from afar. Every coordinate is off by a few
-// roundings of center and radius, so a ray may start this far above the surface.
+// The hit point from center and radius, without t, which is less exact from afar. A ray that starts this far above the
+// surface does not hit it again: the offset covers more than all roundings together.
 HitPoint hit_point() {
     vec3 up = normalize(outward);
     HitPoint at;
