@@ -66,7 +66,7 @@ pub enum Command {
         #[arg(long)]
         from: String,
     },
-    /// Make a crate of your own outside the book, such as `start ../my_tracer`: a sphere, a ground, a test
+    /// Make a crate of your own outside the book, such as `start ../my_tracer`: a scene with a mirror, a test
     Start {
         /// An empty or new folder, with the crate's name
         folder: PathBuf,

@@ -8,9 +8,7 @@ use common::UsageError;
 use common::files::{NewFolder, write_all};
 use manuscript::project::Project;
 
-/// The folder of the template. It is a member of the workspace, under this name.
-const TEMPLATE: &str = "docs/chapters/start/template";
-const NAME: &str = "my_tracer";
+use crate::programs::own_program::{NAME, TEMPLATE};
 
 /// The lines that make the template a member: a crate of its own has other such files.
 const OF_THE_MEMBER: [&str; 2] = ["Cargo.toml", "tests.rs"];

@@ -129,6 +129,15 @@ fn compare(old: &[Line], new: &[Line]) -> Vec<DiffOp> {
     capture_diff_slices_by_key(Algorithm::Patience, old, new, |line| line.key.clone())
 }
 
+/// The changes between two files that belong to no chapter.
+///
+/// # Errors
+/// If a file cannot be read.
+pub fn files(project: &Project, old: &str, new: &str) -> Result<FileDiff> {
+    let side = |path: &str| anyhow::Ok(Names(Vec::new()).side(path, &project.read(path)?));
+    Ok(FileDiff::new(new, side(old)?, side(new)?))
+}
+
 /// Everything that differs between two chapters, `main.rs` first.
 ///
 /// # Errors

@@ -28,7 +28,7 @@ use crate::fault::Fault;
 pub enum Kind {
     /// A part of a source file: `snippet FILE#ANCHOR`.
     Snippet,
-    /// What one chapter changes in another: `diff OLD NEW FILE#ANCHOR`.
+    /// What one chapter changes in another: `diff OLD NEW FILE#ANCHOR`. Or one file in another: `diff OLD NEW`.
     Diff,
     /// A chapter's controls: `controls NAME`.
     Controls,
@@ -109,6 +109,8 @@ pub struct PictureMark {
     pub line: usize,
     /// The picture's name, where it is not the page's.
     pub name: Option<String>,
+    /// The step of the reader's own program after which it is made: `picture NAME STEP`.
+    pub step: Option<String>,
     /// What the fenced block below it says.
     pub command: String,
 }
@@ -167,7 +169,8 @@ impl Page {
                 return fault(what, "put it on the line before the ```sh block".to_owned());
             }
             let command = self.lines[line + 1..end - 1].join("\n");
-            self.pictures.push(PictureMark { line, name: rest.first().cloned(), command });
+            let (name, step) = (rest.first().cloned(), rest.get(1).cloned());
+            self.pictures.push(PictureMark { line, name, step, command });
             return end;
         }
         let Some(kind) = Kind::named(word) else {

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use common::app::Picture;
+use common::prelude::{Camera, DVec3, Sun, Vec3};
 
 use crate::fixture::{Outcome, run};
 
@@ -35,7 +36,7 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
     let folder = above.path().join("deep/glow");
     let outcome = start(&[], &folder);
     assert_eq!(outcome.code, 0, "{}", outcome.err);
-    for line in ["src/main.rs", "shaders/glow/sphere.rint", "tests/picture.rs", "cargo run"] {
+    for line in ["src/main.rs", "shaders/glow/camera.rgen", "tests/picture.rs", "cargo run"] {
         assert!(outcome.out.lines().any(|told| told == line), "{}", outcome.out);
     }
     for file in outcome.out.lines().take_while(|line| !line.is_empty()) {
@@ -79,27 +80,101 @@ fn the_framework_may_come_from_a_git_repository() {
     assert!(dependency.get("path").is_none());
 }
 
-#[test]
-fn the_bowl_of_the_page_is_the_lower_half_of_the_ball() {
-    let shaders = tempfile::tempdir().expect("a temporary folder");
-    let start = ::run::root().join("docs/chapters/start");
-    ::run::copy(&start.join("template/shaders"), shaders.path());
-    let out = shaders.path().join("out.exr");
-    // Whether the pixel is red, in the upper and in the lower half of the ball.
-    let red = || {
-        let outcome = run(::run::command("my_tracer")
-            .env("SHADERS", shaders.path())
-            .args(["--headless", "--validate", "--size", "60x60", "--set", "field of view=30"])
-            .args(["--set", "camera eye=0,1,6", "--set", "camera target=0,1,0", "--out"])
+/// A program as it is after some steps of the page, on a ground of its own, which is grey.
+struct Stepped {
+    name: &'static str,
+    folder: tempfile::TempDir,
+}
+
+impl Stepped {
+    fn new(name: &'static str) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let ground = "v -9 0 9\nv 9 0 9\nv 9 0 -9\nv -9 0 -9\nf 1 2 3 4\n";
+        fs::write(folder.path().join("ground.obj"), ground).expect("a scene");
+        Self { name, folder }
+    }
+
+    /// Overwrites the shaders that these steps change.
+    fn with(self, steps: &[&str]) -> Self {
+        for step in steps {
+            let own = ::run::root().join("docs/chapters/start").join(step).join("shaders");
+            ::run::copy(&own, self.folder.path());
+        }
+        self
+    }
+
+    fn pixels(&self, size: &str, settings: &[&str]) -> Vec<Vec3> {
+        let out = self.folder.path().join("out.exr");
+        let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+        let outcome = run(::run::command(self.name)
+            .env("SHADERS", self.folder.path())
+            .args(["--headless", "--validate", "--size", size, "--scene"])
+            .arg(self.folder.path().join("ground.obj"))
+            .args(settings)
+            .arg("--out")
             .arg(&out));
         assert_eq!((outcome.code, &*outcome.err), (0, ""));
         let picture = Picture::open_exr(&out).expect("a picture");
-        [20, 40].map(|y| picture.pixels[y * 60 + 30]).map(|[red, green, ..]| red > 2.0 * green)
+        picture.pixels.iter().map(|[red, green, blue, _]| Vec3::new(*red, *green, *blue)).collect()
+    }
+}
+
+#[test]
+fn the_moon_of_the_page_lights_the_ground() {
+    let program = Stepped::new("my_tracer_second_light").with(&["template", "second_light"]);
+    let at = |moon| {
+        let eye = ["camera eye=0,3,1", "camera target=0,0,0"];
+        program.pixels("1x1", &[&[moon], &eye[..]].concat())[0]
     };
-    assert_eq!(red(), [true, true]);
-    fs::copy(start.join("bowl.rint"), shaders.path().join("my_tracer/sphere.rint"))
-        .expect("a copy");
-    assert_eq!(red(), [false, true]);
+    let height = 0.8 / Vec3::new(1.0, 0.8, 0.4).length();
+    let light = 0.5 * 2.0 * Vec3::new(0.2, 0.4, 0.8) * height / std::f32::consts::PI;
+    let added = at("moon=2") - at("moon=0");
+    assert!(added.abs_diff_eq(light, 1e-5), "{added} instead of {light}");
+}
+
+#[test]
+fn the_sphere_of_the_page_is_lit_as_a_sphere_and_the_bowl_is_its_lower_half() {
+    let steps = ["template", "second_light", "sphere"];
+    let program = Stepped::new("my_tracer_sphere").with(&steps);
+    let settings = [
+        "camera eye=0.9,0.6,6",
+        "camera target=0.9,0.6,0.9",
+        "field of view=20",
+        "sun azimuth=30",
+        "sun elevation=30",
+        "moon=0",
+    ];
+    let (center, radius) = (DVec3::new(0.9, 0.6, 0.9), 0.6);
+    let camera = Camera::new(DVec3::new(0.9, 0.6, 6.0), center, 20.0);
+    let sun = Sun { azimuth: 30.0, elevation: 30.0, ..Sun::default() }.light();
+    let [right, up, forward] = camera.axes();
+    let half = (camera.fov_y / 2.0).to_radians().tan();
+    let (low, high) = (Vec3::new(0.16, 0.14, 0.12), Vec3::new(0.42, 0.47, 0.55));
+    let sphere = program.pixels("60x60", &settings);
+    // The direction from the center to the point in each pixel, where that is the sphere and not near its outline.
+    let outward = |i: usize| {
+        let [x, y] = [i % 60, 59 - i / 60].map(|i| (2.0 * i as f64 + 1.0) / 60.0 - 1.0);
+        let ray = (forward + half * (x * right + y * up)).normalize();
+        let (f, b) = (camera.eye - center, (camera.eye - center).dot(ray));
+        let discriminant = b * b - f.length_squared() + radius * radius;
+        (discriminant > 0.01).then(|| ((f - (b + discriminant.sqrt()) * ray) / radius).as_vec3())
+    };
+    let mut lit = 0;
+    for (i, color) in sphere.iter().enumerate() {
+        let Some(normal) = outward(i) else { continue };
+        let cosine = normal.dot(sun.direction);
+        let sky = low.lerp(high, 0.5 + 0.5 * normal.y);
+        let exact = 0.5 * (sky + sun.radiance * cosine.max(0.0) / std::f32::consts::PI);
+        assert!(color.abs_diff_eq(exact, 1e-4), "pixel {i}: {color} instead of {exact}");
+        lit += usize::from(cosine > 0.0);
+    }
+    assert!(lit > 500, "{lit} pixels in the sun");
+    let bowl = program.with(&["bowl"]).pixels("60x60", &settings);
+    for (i, (bowl, sphere)) in bowl.iter().zip(&sphere).enumerate() {
+        if let Some(normal) = outward(i).filter(|normal| normal.y.abs() > 0.05) {
+            assert_eq!(bowl == sphere, normal.y < 0.0, "pixel {i}");
+        }
+    }
 }
 
 #[test]

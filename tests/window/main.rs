@@ -449,13 +449,12 @@ fn without_a_display_one_line_offers_headless() {
     assert!(code == 2 && line.contains("--headless"), "{line}");
 }
 
-/// `UPDATE=1 cargo test --test window` makes the picture of the window that the README shows.
-#[test]
-fn the_readme_shows_this_window() {
+/// The picture of a program's window below `docs/images`, which `UPDATE=1 cargo test --test window` makes.
+fn is_shown(program: &str, name: &str) {
     let _alone = alone();
-    let file = run::root().join("docs/images/window.png");
+    let file = run::root().join("docs/images").join(name);
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
-        let desk = Desk::open("02_basic", &["--size", "1280x720"], &[]);
+        let desk = Desk::open(program, &["--size", "1280x720"], &[]);
         // There and back, until the plot is full.
         for _ in 0..2 {
             desk.drag((800, 500), (1100, 540), 240);
@@ -474,6 +473,16 @@ fn the_readme_shows_this_window() {
         panic!("no {}: {error}; UPDATE=1 cargo test --test window writes it", file.display())
     });
     assert_eq!((shown.width(), shown.height()), (1280, 720));
+}
+
+#[test]
+fn the_readme_shows_this_window() {
+    is_shown("02_basic", "window.png");
+}
+
+#[test]
+fn the_page_on_an_own_program_shows_this_window() {
+    is_shown("my_tracer", "own-program_window.png");
 }
 
 #[test]

@@ -9,14 +9,14 @@ use image::Rgb;
 use super::desk::{Desk, wait};
 use super::{alone, ended_well, tells_error};
 
-/// Makes the sky of the shaders in `folder` wrong, and then green, and the window follows.
+/// Makes the sky in the raygen shader of `folder` wrong, and then green, and the window follows.
 fn follows_an_edit(desk: Desk, folder: &Path) {
-    let sky = folder.join("sky.rmiss");
-    let good = std::fs::read_to_string(&sky).expect("the sky");
+    let raygen = folder.join("camera.rgen");
+    let good = std::fs::read_to_string(&raygen).expect("the raygen shader");
     let edit = |color: &str| {
-        let text = good.replace("sky(gl_WorldRayDirectionEXT)", color);
+        let text = good.replace("throughput * hit.color;", &format!("{color};"));
         assert_ne!(text, good);
-        std::fs::write(&sky, text).expect("an edit");
+        std::fs::write(&raygen, text).expect("an edit");
     };
     edit("nonsense");
     wait("the error", || tells_error(&desk).then_some(()));
@@ -65,14 +65,29 @@ fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     cargo(&["build"]);
     println!("built in {} s", start.elapsed().as_secs());
     cargo(&["test", "--locked"]);
-    // A hit record beyond the table, and one of the other kind: silent without the check, and the ball is gone.
+    // The steps of the page. With a hit record beyond the table, or one of the other kind, the sphere would be gone
+    // without a word.
     let main = folder.join("src/main.rs");
+    let apply = |step: &str| {
+        let changed = run::root().join("docs/chapters/start").join(step);
+        std::fs::copy(changed.join("src/main.rs"), &main).expect("a copy");
+        for shader in changed.join("shaders/my_tracer").read_dir().expect("its shaders") {
+            let shader = shader.expect("a shader");
+            let copy = folder.join("shaders/glow").join(shader.file_name());
+            std::fs::copy(shader.path(), copy).expect("a copy");
+        }
+        let text = std::fs::read_to_string(&main).expect("the program");
+        std::fs::write(&main, text.replace("my_tracer", "glow")).expect("an edit");
+        cargo(&["test"]);
+    };
+    apply("second_light");
+    apply("sphere");
     let good = std::fs::read_to_string(&main).expect("the program");
     for (record, words) in [
         (2, "an instance of the top level has the hit record 2"),
         (0, "an instance of boxes has the hit record 0, which is a hit group for triangles"),
     ] {
-        let edited = good.replace("0, 1, &sphere", &format!("0, {record}, &sphere"));
+        let edited = good.replace("last, 1, &sphere", &format!("last, {record}, &sphere"));
         assert_ne!(edited, good);
         std::fs::write(&main, edited).expect("an edit");
         cargo(&["build"]);

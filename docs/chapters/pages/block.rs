@@ -11,6 +11,7 @@ use similar::{DiffOp, group_diff_ops};
 use super::{gallery, map, price};
 use crate::exercises::exercise;
 use crate::mistakes::mistake;
+use crate::programs::own_program;
 use crate::programs::program::{BUILD, Programs};
 use crate::survey::card;
 use crate::survey::card_page;
@@ -31,6 +32,10 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
         (Kind::Snippet, [source]) => {
             let text = snippet(programs.project, source).map_err(|wrong| wrong.at(page, block))?;
             Ok((text, (*source).to_owned()))
+        }
+        (Kind::Diff, [old, new]) if old.contains('/') => {
+            let text = own_program_diff(programs.project, old, new);
+            Ok((text.map_err(|wrong| wrong.at(page, block))?, words.join(" ")))
         }
         (Kind::Diff, [old, new, rest @ ..]) if rest.len() <= 1 => {
             let text = diff_block(programs.project, old, new, rest.first().copied());
@@ -193,6 +198,22 @@ fn diff_block(
         Some(diff) => Ok(fenced("diff", &unified(&diff))),
         None => Err(Wrong::new(format!("nothing differs in '{wanted}'"), "remove the block")),
     }
+}
+
+/// One file's changes since another, under the paths that they have in the reader's own crate.
+fn own_program_diff(project: &Project, old: &str, new: &str) -> Result<String, Wrong> {
+    for file in [old, new] {
+        read(project, file)?;
+    }
+    let unreadable = |error| Wrong::new(format!("{error:#}"), "mend the file");
+    let mut diff = diff::files(project, old, new).map_err(unreadable)?;
+    if diff.added() + diff.removed() == 0 {
+        return Err(Wrong::new("nothing differs", "remove the block"));
+    }
+    for side in [&mut diff.old, &mut diff.new] {
+        side.path = side.path.take().map(|path| own_program::place(&path).to_owned());
+    }
+    Ok(fenced("diff", &unified(&diff)))
 }
 
 /// A file's changes in the form that every tool knows.

@@ -65,7 +65,7 @@ impl Picture {
     /// If there is no run of a chapter below it, or several and not each has a label.
     fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
         let wrong = |what: &str, remedy: &str| Fault::new(&*page.path, mark.line + 2, what, remedy);
-        let renderings = Rendering::all(project, &mark.command);
+        let renderings = Rendering::all(project, &mark.command, mark.step.as_deref());
         let renderings = renderings.map_err(|(what, remedy)| wrong(&what, remedy))?;
         let Some(first) = renderings.first() else {
             return Err(wrong("a picture is made by a `cargo run`", "write one"));

@@ -7,6 +7,7 @@ pub mod child;
 pub mod command_line;
 pub mod controls;
 pub mod interrupt;
+pub mod own_program;
 pub mod program;
 pub mod run_result;
 pub mod test;

@@ -1,4 +1,4 @@
-// What the shaders share. The files in `common/` are those of the book.
+// The push constants of all shaders. The files in `common/` are the book's.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -6,13 +6,6 @@
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
-    DirectionalLight light;
-    float radius;
+    DirectionalLight sun;
+    uint reflections;
 } push;
-
-// What a ray has met.
-struct Hit {
-    vec3 color;
-    vec3 normal;
-    float t;      // -1: nothing
-};
