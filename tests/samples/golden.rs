@@ -30,6 +30,7 @@ golden! {
     callable_shader,
     curved_cones,
     depth_of_field,
+    distant_spheres,
     emitters,
     far_from_origin,
     foundation,

@@ -7,6 +7,7 @@ mod basic;
 mod callable_shader;
 mod curved_cones;
 mod depth_of_field;
+mod distant_spheres;
 mod emitters;
 mod equalities;
 mod far_from_origin;
