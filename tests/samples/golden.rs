@@ -33,6 +33,7 @@ golden! {
     distant_spheres,
     emitters,
     far_from_origin,
+    filtered_checker,
     foundation,
     heightfield,
     infinite_plane,

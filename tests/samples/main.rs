@@ -11,6 +11,7 @@ mod distant_spheres;
 mod emitters;
 mod equalities;
 mod far_from_origin;
+mod filtered_checker;
 mod foundation;
 mod glass;
 mod golden;
