@@ -135,8 +135,10 @@ fn all<'a>(
     for measurement in measurements {
         commands.entry(&measurement.command).or_default().push(measurement);
     }
-    let is_timed = |one: &&Measurement| stored.get(&one.name).is_some_and(|record| record.timed);
-    let values = commands.into_values().filter(|group| !group.iter().all(is_timed));
+    let stays = |one: &&Measurement| {
+        stored.get(&one.name).is_some_and(|record| record.timed || record.commit.is_some())
+    };
+    let values = commands.into_values().filter(|group| !group.iter().all(stays));
     let pictures = pictures.iter().map(Item::Picture);
     let mistakes = mistakes.iter().map(Item::Mistake);
     pictures.chain(mistakes).chain(values.map(Item::Values)).collect()

@@ -57,6 +57,7 @@ const DRAWINGS: &[Drawing] = &[
     ("shutter_methods", shutter::methods),
     ("shutter_times", shutter::times),
     ("slabs", shapes::slabs),
+    ("sphere_foot", shapes::foot),
     ("swept", shapes::swept),
     ("solid_angles", lights::solid_angles),
     ("sobol_boxes", squares::boxes),

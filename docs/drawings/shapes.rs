@@ -6,7 +6,7 @@ use reference::solid::Solid;
 use reference::sphere::Sphere;
 
 use crate::sheet::Anchor::{self, Middle, Start};
-use crate::sheet::{BLUE, BROWN, FAINT, GREEN, LINE, Sheet, WHITE, YOURS};
+use crate::sheet::{BLUE, BROWN, FAINT, GREEN, LINE, RED, SEA, Sheet, WHITE, YOURS};
 
 /// A box in the plane as two slabs.
 pub fn slabs() -> String {
@@ -52,6 +52,59 @@ pub fn slabs() -> String {
     ];
     for (row, line) in lines.into_iter().enumerate() {
         s.say([586.0, 90.0 + 20.0 * row as f64], Start, line);
+    }
+    s.svg()
+}
+
+/// The foot of the perpendicular from a sphere's centre onto a ray, and half of the chord to either side.
+pub fn foot() -> String {
+    let mut s = Sheet::new([840, 330], "The foot of the perpendicular");
+    let (center, radius) = ([430.0, 150.0], 92.0);
+    let (origin, slope) = ([50.0, 232.0], -0.075f64);
+    let length = slope.hypot(1.0);
+    let unit = [1.0 / length, slope / length];
+    let place = |t: f64| [origin[0] + t * unit[0], origin[1] + t * unit[1]];
+    let middle = unit[0] * (center[0] - origin[0]) + unit[1] * (center[1] - origin[1]);
+    let foot = place(middle);
+    let aside = (center[0] - foot[0]).hypot(center[1] - foot[1]);
+    let half_chord = (radius * radius - aside * aside).sqrt();
+    let (near, far) = (place(middle - half_chord), place(middle + half_chord));
+    s.circle(center, radius, YOURS, BROWN);
+    s.arrow(&[origin, place(560.0)]);
+    s.line(&[near, far], SEA, 4.0);
+    s.dashes(&[center, foot], RED, 1.8);
+    s.line(&[center, far], BROWN, 1.6);
+    for (point, fill) in [(origin, LINE), (center, BROWN), (near, SEA), (far, SEA), (foot, RED)] {
+        s.dot(point, 4.5, fill);
+    }
+    s.say([origin[0] - 4.0, origin[1] + 22.0], Start, "origin");
+    s.say([center[0] - 10.0, center[1] - 8.0], Anchor::End, "centre");
+    s.note([center[0] + 52.0, center[1] + 8.0], Start, "r");
+    s.say([foot[0] + 4.0, foot[1] + 20.0], Middle, "foot");
+    s.say([near[0] - 8.0, near[1] + 20.0], Anchor::End, "near hit");
+    s.say([far[0] + 10.0, far[1] + 20.0], Start, "far hit");
+    // A ruler for the two lengths along the ray.
+    let below = |t: f64, down: f64| [place(t)[0], 276.0 + down];
+    let ends = [0.0, middle - half_chord, middle, middle + half_chord];
+    for end in ends {
+        s.line(&[below(end, -6.0), below(end, 6.0)], LINE, 1.2);
+    }
+    s.line(&[below(0.0, 0.0), below(middle, 0.0)], LINE, 1.2);
+    s.line(&[below(middle - half_chord, 0.0), below(middle + half_chord, 0.0)], SEA, 3.0);
+    s.note(below(middle * 0.42, 20.0), Middle, "t of the foot: as large as the distance");
+    s.note(below(middle + half_chord / 2.0, 20.0), Middle, "half the chord");
+    let lines = [
+        "The ray hits if the red line is",
+        "at most r long. From any distance,",
+        "the red line, r and half the chord",
+        "stay as small as the sphere.",
+        "",
+        "The hits are half a chord before",
+        "the foot and half a chord behind:",
+        "half chord² = r² − red²",
+    ];
+    for (row, line) in lines.into_iter().enumerate() {
+        s.say([612.0, 84.0 + 20.0 * row as f64], Start, line);
     }
     s.svg()
 }

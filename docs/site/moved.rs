@@ -38,7 +38,9 @@ pub fn read(project: &Project, entries: &[Entry]) -> Result<Vec<Moved>> {
         let remedy = "write \"page.md#place\" = \"page.md#place\"";
         Fault::new(FILE, before.matches('\n').count() + 1, what, remedy).error()
     })?;
-    let moved = table.into_iter().map(|(old, new)| {
+    // Lines of exercises are read by `cargo chapters exercise`.
+    let places = table.into_iter().filter(|(old, _)| !old.starts_with("exercise "));
+    let moved = places.map(|(old, new)| {
         let line = text.lines().position(|line| line.starts_with(&format!("\"{old}\"")));
         let line = line.map_or(1, |index| index + 1);
         let fault = |what: String| Fault::new(FILE, line, what, "correct it").error();

@@ -1,12 +1,12 @@
 //! 08 · Intersection: spheres and boxes, which the device does not know, found by our own shaders.
 //!
 //! New since 41_ray_offset: bottom levels of boxes, the intersection shaders `sphere.rint` and
-//! `box.rint`, a closest hit shader for both, hit groups per instance, and how exact all that is.
+//! `box.rint`, a closest hit shader for both, and hit groups per instance.
 
 mod boxes;
-mod host_c;
 mod level;
 mod random;
+mod scenes;
 mod shapes;
 mod shapes_on_gpu;
 
@@ -21,7 +21,7 @@ use common::scene::{
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
-use shapes::SceneKind;
+use scenes::SceneKind;
 use shapes_on_gpu::{Build, ShapeAddresses, ShapesOnGpu};
 
 fn main() -> ExitCode {
@@ -32,12 +32,11 @@ struct Demo {
     source: Scene,
     scene: SceneOnGpu,
     shapes: ShapesOnGpu,
-    pipelines: Variants<Constants>,
+    pipelines: Variants<Show>,
     camera: Camera,
     sun: Sun,
     build: Build,
-    distance: f32,
-    constants: Constants,
+    show: Show,
 }
 
 common::shader_enum! {
@@ -46,19 +45,6 @@ common::shader_enum! {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Kind = "hit kind",
     }
-    /// The formula that intersects spheres.
-    enum SphereRung: SPHERE { Textbook, Projection, Stable, HostC, Offered }
-    /// The formula that intersects boxes.
-    enum BoxRung: BOX { Reciprocal, Division }
-}
-
-/// Specialization constants of a pipeline's shaders.
-#[derive(Clone, Copy, PartialEq)]
-struct Constants {
-    show: Show,
-    shadows: bool,
-    sphere_rung: SphereRung,
-    box_rung: BoxRung,
 }
 
 common::shader_struct! {
@@ -67,7 +53,6 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         shapes: Address<ShapeAddresses>,
-        host_c: Address,
         light: DirectionalLight,
     }
 }
@@ -82,14 +67,8 @@ impl Sample for Demo {
         source.model.materials.extend(shapes::materials());
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
-        let build = Build { scene: SceneKind::Chess, count: 10_000, margin: true };
+        let build = Build { scene: SceneKind::Chess, count: 10_000 };
         let shapes = ShapesOnGpu::new(gpu, &source, &scene, build, camera.eye.as_vec3())?;
-        let constants = Constants {
-            show: Show::Picture,
-            shadows: true,
-            sphere_rung: SphereRung::Stable,
-            box_rung: BoxRung::Division,
-        };
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             source,
@@ -99,29 +78,21 @@ impl Sample for Demo {
             camera,
             sun,
             build,
-            distance: 100.0,
-            constants,
+            show: Show::Picture,
         })
     }
 
     fn controls(&mut self, c: &mut Controls) {
-        // A scene brings its size, its view, and whether its shadows are worth their time.
-        if c.choice("scene", &mut self.build.scene) {
-            self.build.count = shapes::default_count(self.build.scene);
-            self.constants.shadows =
-                [SceneKind::Chess, SceneKind::Grid].contains(&self.build.scene);
-            self.camera = self.scene_camera();
+        let scene = c.choice("scene", &mut self.build.scene);
+        if scene {
+            self.build.count = scenes::default_count(self.build.scene);
         }
-        if c.integer("count", &mut self.build.count, 1..=1_000_000) {
-            self.camera = self.scene_camera();
+        let count = c.integer("count", &mut self.build.count, 1..=1_000_000);
+        if scene || count {
+            let Build { scene, count } = self.build;
+            self.camera = scenes::camera(scene, self.source.camera, count);
         }
-        if c.slider("distance", &mut self.distance, 1e-3..=1e6) {
-            self.camera = self.scene_camera();
-        }
-        c.choice("sphere rung", &mut self.constants.sphere_rung);
-        c.choice("box rung", &mut self.constants.box_rung);
-        c.checkbox("margin", &mut self.build.margin);
-        c.choice("show", &mut self.constants.show);
+        c.choice("show", &mut self.show);
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
@@ -135,17 +106,13 @@ impl Sample for Demo {
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        let Variant { key, pipeline, sbt } =
-            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
-        if key.sphere_rung == SphereRung::HostC {
-            self.shapes.host_c.compute(frame, self.camera.eye.as_vec3())?;
-        }
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame, &self.scene.textures, self.show, pipeline)?;
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             shapes: self.shapes.addresses.address.into(),
-            host_c: self.shapes.host_c.address(),
             light: self.sun.light(),
         };
         let descriptors = [
@@ -159,20 +126,10 @@ impl Sample for Demo {
     }
 }
 
-impl Demo {
-    fn scene_camera(&self) -> Camera {
-        shapes::camera(self.build.scene, self.source.camera, self.build.count, self.distance)
-    }
-}
-
 /// A hit group for each kind of surface: triangles, spheres, boxes.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
-fn pipeline(
-    gpu: &Gpu,
-    textures: &TextureTable,
-    constants: Constants,
-) -> Result<RayTracingPipeline> {
+fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
@@ -180,10 +137,7 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("sphere.rint").closest_hit("shape.rchit"))
         .hit(HitGroup::procedural("box.rint").closest_hit("shape.rchit"))
-        .constant(0, constants.show)
-        .constant(1, constants.shadows)
-        .constant(2, constants.sphere_rung)
-        .constant(3, constants.box_rung)
+        .constant(0, show)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

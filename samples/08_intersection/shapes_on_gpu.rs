@@ -6,17 +6,15 @@ use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, reach};
 use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
-use crate::host_c::HostC;
 use crate::level::Level;
-use crate::shapes::{self, Box, SceneKind, Shapes, Sphere};
+use crate::scenes::{self, SceneKind};
+use crate::shapes::{self, Box, Sphere};
 
 /// Parameters of the shapes; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub scene: SceneKind,
     pub count: u32,
-    /// True if the boxes around shapes are larger than the shapes.
-    pub margin: bool,
 }
 
 common::shader_struct! {
@@ -34,10 +32,9 @@ pub struct ShapesOnGpu {
     pub tlas: AccelerationStructure,
     /// The buffer with the addresses of the shapes: a [`ShapeAddresses`].
     pub addresses: Buffer,
-    pub host_c: HostC,
     /// Corners of the box around everything.
     bounds: order::Bounds,
-    /// Bound on the distance from a ray's origin to a shape; the margin of the boxes grows with it.
+    /// Bound on the distance from a ray's origin to a shape; the padding of the boxes grows with it.
     reach: f32,
     build: Build,
     _levels: Vec<AccelerationStructure>,
@@ -52,7 +49,7 @@ impl ShapesOnGpu {
         build: Build,
         eye: Vec3,
     ) -> Result<Self> {
-        let shapes = Shapes::new(build.scene, build.count, &source.model, &source.instances);
+        let shapes = scenes::shapes(build.scene, build.count, &source.model, &source.instances);
         let spheres: Vec<_> = shapes.spheres.iter().map(Sphere::bounds).collect();
         let boxes: Vec<_> = shapes.boxes.iter().map(|b| (b.low, b.high)).collect();
         // In the other scenes there are no triangles, and in this one fewer.
@@ -63,7 +60,7 @@ impl ShapesOnGpu {
         let mut bounds: Vec<_> =
             pieces.iter().map(|(_, piece)| source.instance_bounds(piece)).collect();
         let everything = around(bounds.iter().chain(&spheres).chain(&boxes));
-        let reach = if build.margin { reach(everything, eye) } else { 0.0 };
+        let reach = reach(everything, eye);
 
         let ordering = scene.options.ordering;
         let orders = [&spheres, &boxes].map(|bounds| order::for_build(gpu, bounds, ordering));
@@ -106,7 +103,6 @@ impl ShapesOnGpu {
         Ok(Self {
             tlas,
             addresses: Buffer::with_data(gpu, "shapes", &[addresses], input_usage())?,
-            host_c: HostC::new(shapes.spheres),
             bounds: everything,
             reach,
             build,
@@ -117,7 +113,6 @@ impl ShapesOnGpu {
 
     /// Tests whether they must be rebuilt, for other parameters or because the eye has moved far.
     pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
-        let reach = if build.margin { reach(self.bounds, eye) } else { 0.0 };
-        build != self.build || reach != self.reach
+        build != self.build || reach(self.bounds, eye) != self.reach
     }
 }

@@ -1,7 +1,7 @@
 //! 12 · Infinite plane: a surface that no acceleration structure can hold, met before the ray is traced.
 //!
-//! New since 06_reflection: a plane that bounds each ray and reports itself where the ray reaches it, four
-//! ways to intersect it, a checker board without aliasing, two lights at once, and three scenes.
+//! New since 06_reflection: a plane that bounds each ray and reports itself where the ray reaches it, its
+//! inside and outside, two lights at once, and three scenes.
 
 mod plane;
 mod scenes;
@@ -48,10 +48,7 @@ common::shader_enum! {
     /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
-        Rungs,
     }
-    /// The formula that intersects the plane.
-    enum Rung: PLANE { Pov, Point, CutOff = "cut-off", Compensated }
     /// The moment to test the plane: before the scene is traced, or after.
     enum PlaneTest: TEST { Before, After }
 }
@@ -60,7 +57,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    rung: Rung,
     plane_test: PlaneTest,
     plane: bool,
     inside: Inside,
@@ -116,7 +112,6 @@ impl Sample for Demo {
             minimum_contribution: 1.0 / 512.0,
             constants: Constants {
                 show: Show::Picture,
-                rung: Rung::Compensated,
                 plane_test: PlaneTest::Before,
                 plane: true,
                 inside: Inside::Surface,
@@ -139,7 +134,6 @@ impl Sample for Demo {
         c.integer("depth", &mut self.depth, 0..=8);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
         self.plane.controls(c);
-        c.choice("rung", &mut self.constants.rung);
         c.choice("plane test", &mut self.constants.plane_test);
         c.camera(&mut self.camera);
     }
@@ -207,14 +201,13 @@ fn pipeline(
 ) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
-        .miss("sky.rmiss")
+        .miss("common/sky.rmiss")
         .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.rung)
-        .constant(2, constants.plane_test)
-        .constant(3, constants.plane)
-        .constant(4, constants.inside)
+        .constant(1, constants.plane_test)
+        .constant(2, constants.plane)
+        .constant(3, constants.inside)
         .rounding_to_nearest_even(gpu)
         .recursion(1)
         .binding(Binding::AccelerationStructure)

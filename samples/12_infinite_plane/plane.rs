@@ -40,8 +40,8 @@ impl InfinitePlane {
         c.checkbox("inverse", &mut half_space.inverse);
         c.choice("inside", inside);
         c.color("inside color", &mut board.inner);
-        let mut checker = board.checker.variant();
-        c.choice("checker", &mut checker);
+        let mut checker = board.checker == 1;
+        c.checkbox("checker", &mut checker);
         board.checker = checker.into();
         c.color("light squares", &mut board.light);
         c.color("dark squares", &mut board.dark);

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use common::model::Model;
-use common::scene::board::{Board, Checker};
+use common::scene::board::Board;
 use common::scene::plane::HalfSpace;
 use common::scene::{Camera, Instance, Material, Mesh, PointLight, Scene, Sun, Vertex};
 use glam::{Affine3A, DVec3, Mat3A, Vec2, Vec3, Vec3Swizzles};
@@ -90,16 +90,13 @@ impl Preset {
     }
 }
 
-/// The scene on an infinite board. The plane y = 0 takes the place of the squares and the frame. The screen,
-/// which stands on the frame, is left out: there is the horizon.
+/// The scene on an infinite board. The plane y = 0 takes the place of the squares and the frame, and shows the
+/// horizon.
 fn board(scene: &Scene) -> Preset {
-    let name = |instance: &Instance| scene.model.meshes[instance.mesh].name.as_str();
-    let stays = |instance: &&Instance| {
-        !["board", "screen"].iter().any(|given_up| name(instance).starts_with(given_up))
-    };
-    let instances = scene.instances.iter().filter(stays).copied().collect();
+    let mut scene = scene.clone();
+    scene.remove_board();
     Preset {
-        scene: Scene { model: scene.model.clone(), instances, camera: scene.camera },
+        scene,
         sun: Sun { azimuth: 285.0, elevation: 17.0, radiance: Vec3::new(5.2, 4.0, 2.7) },
         lamp: PointLight::default(),
         lights: Lights::Directional,
@@ -134,7 +131,7 @@ fn four_spheres(scene: &Scene) -> Preset {
             specular: 0.5,
             roughness: 0.42,
             reflection: 0.1,
-            checker: Checker::Off.into(),
+            checker: 0,
             square: 4.0,
             ..Board::default()
         },

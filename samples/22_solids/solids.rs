@@ -196,7 +196,7 @@ impl SolidsOnGpu {
 /// The box for a solid whose surface has these corners.
 ///
 /// A hundredth larger than the solid: room for what the device's box test rounds, 10u of the way (chapter
-/// 08), for rays that come from as far as sixteen thousand times its size.
+/// 42), for rays that come from as far as sixteen thousand times its size.
 fn box_around(low: DVec3, high: DVec3) -> order::Bounds {
     let margin = 0.01 * (high - low).max_element();
     // Where a solid is empty, any box will do: its shader finds nothing.

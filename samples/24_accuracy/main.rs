@@ -1,6 +1,6 @@
 //! 24 · Accuracy: the laboratory, where every way of intersecting is asked, timed and held to the truth.
 //!
-//! New since 08_intersection: the full ladders, hard cases whose answers are known to 50 digits, a
+//! New since 42_distant_spheres: the full ladders, hard cases whose answers are known to 50 digits, a
 //! picture of each rung's errors, and what they cost in time.
 
 mod atlas;

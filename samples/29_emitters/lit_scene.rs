@@ -50,7 +50,7 @@ impl LitScene {
         let emitters = Emitters::new(scene, spheres)?;
         let reach = reach(staged, eye);
 
-        // 08 teaches the box around a sphere and its margin.
+        // 08 teaches the box around a sphere, and 42 its margin.
         let bounds: Vec<order::Bounds> = spheres
             .iter()
             .map(|sphere| {

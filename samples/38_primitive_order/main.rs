@@ -5,13 +5,13 @@
 
 #[path = "../08_intersection/boxes.rs"]
 mod boxes;
-#[path = "../08_intersection/host_c.rs"]
-mod host_c;
 #[path = "../08_intersection/level.rs"]
 mod level;
 mod order;
 #[path = "../08_intersection/random.rs"]
 mod random;
+#[path = "../08_intersection/scenes.rs"]
+mod scenes;
 #[path = "../08_intersection/shapes.rs"]
 mod shapes;
 mod shapes_on_gpu;
@@ -29,7 +29,7 @@ use common::scene::{
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 use order::Order;
-use shapes::SceneKind;
+use scenes::SceneKind;
 use shapes_on_gpu::{Build, ShapeAddresses, ShapesOnGpu};
 
 fn main() -> ExitCode {
@@ -44,7 +44,6 @@ struct Demo {
     camera: Camera,
     sun: Sun,
     build: Build,
-    distance: f32,
     constants: Constants,
 }
 
@@ -54,10 +53,6 @@ common::shader_enum! {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Kind = "hit kind", Place = "place in order", Tests = "box tests",
     }
-    /// The formula that intersects spheres.
-    enum SphereRung: SPHERE { Textbook, Projection, Stable, HostC, Offered }
-    /// The formula that intersects boxes.
-    enum BoxRung: BOX { Reciprocal, Division }
 }
 
 /// Specialization constants of a pipeline's shaders.
@@ -65,8 +60,6 @@ common::shader_enum! {
 struct Constants {
     show: Show,
     shadows: bool,
-    sphere_rung: SphereRung,
-    box_rung: BoxRung,
     copies: bool,
 }
 
@@ -76,7 +69,6 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         shapes: Address<ShapeAddresses>,
-        host_c: Address,
         light: DirectionalLight,
     }
 }
@@ -91,17 +83,11 @@ impl Sample for Demo {
         source.model.materials.extend(shapes::materials());
         let order = if setup.options.ordering { Order::Halves } else { Order::Given };
         let (scene, count) = (SceneKind::RandomBall, 10_000);
-        let build = Build { scene, count, order, margin: true };
-        let camera = shapes::camera(scene, source.camera, count, 0.0);
+        let build = Build { scene, count, order };
+        let camera = scenes::camera(scene, source.camera, count);
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let shapes = ShapesOnGpu::new(gpu, &source, &scene, build, camera.eye.as_vec3())?;
-        let constants = Constants {
-            show: Show::Picture,
-            shadows: false,
-            sphere_rung: SphereRung::Stable,
-            box_rung: BoxRung::Division,
-            copies: false,
-        };
+        let constants = Constants { show: Show::Picture, shadows: false, copies: false };
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             source,
@@ -111,32 +97,26 @@ impl Sample for Demo {
             camera,
             sun,
             build,
-            distance: 100.0,
             constants,
         })
     }
 
     fn controls(&mut self, c: &mut Controls) {
         // A scene brings its size, its view, and whether its shadows are worth their time.
-        if c.choice("scene", &mut self.build.scene) {
-            self.build.count = shapes::default_count(self.build.scene);
-            self.constants.shadows =
-                [SceneKind::Chess, SceneKind::Grid].contains(&self.build.scene);
-            self.camera = self.scene_camera();
+        let scene = c.choice("scene", &mut self.build.scene);
+        if scene {
+            self.build.count = scenes::default_count(self.build.scene);
+            self.constants.shadows = self.build.scene != SceneKind::RandomBall;
         }
-        if c.integer("count", &mut self.build.count, 1..=1_000_000) {
-            self.camera = self.scene_camera();
+        let count = c.integer("count", &mut self.build.count, 1..=1_000_000);
+        if scene || count {
+            let Build { scene, count, .. } = self.build;
+            self.camera = scenes::camera(scene, self.source.camera, count);
         }
         c.choice("order", &mut self.build.order);
         c.checkbox("copies in order", &mut self.constants.copies);
         let [spheres, boxes] = self.shapes.expected_tests;
         c.note("expected tests", &format!("{spheres:.0} of spheres, {boxes:.0} of boxes"));
-        if c.slider("distance", &mut self.distance, 1e-3..=1e6) {
-            self.camera = self.scene_camera();
-        }
-        c.choice("sphere rung", &mut self.constants.sphere_rung);
-        c.choice("box rung", &mut self.constants.box_rung);
-        c.checkbox("margin", &mut self.build.margin);
         c.choice("show", &mut self.constants.show);
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
@@ -151,17 +131,13 @@ impl Sample for Demo {
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        let Variant { key, pipeline, sbt } =
+        let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
-        if key.sphere_rung == SphereRung::HostC {
-            self.shapes.host_c.compute(frame, self.camera.eye.as_vec3())?;
-        }
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             shapes: self.shapes.addresses.address.into(),
-            host_c: self.shapes.host_c.address(),
             light: self.sun.light(),
         };
         let descriptors = [
@@ -172,12 +148,6 @@ impl Sample for Demo {
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
-    }
-}
-
-impl Demo {
-    fn scene_camera(&self) -> Camera {
-        shapes::camera(self.build.scene, self.source.camera, self.build.count, self.distance)
     }
 }
 
@@ -198,9 +168,7 @@ fn pipeline(
         .hit(HitGroup::procedural("box.rint").closest_hit("shape.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.shadows)
-        .constant(2, constants.sphere_rung)
-        .constant(3, constants.box_rung)
-        .constant(4, constants.copies)
+        .constant(2, constants.copies)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

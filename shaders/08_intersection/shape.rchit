@@ -2,21 +2,20 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "push.glsl"
-#include "hit.glsl"
+#include "common/shape_hit.glsl"
 #include "common/hit_point.glsl"
 
 layout(location = 0) rayPayloadInEXT ShapeHit seen;
 hitAttributeEXT vec3 outward;
 
-// Computes the hit anew, from the shape and not from the ray: on the sphere or the wall as nearly as
-// rounding allows, wherever the ray came from. And how far above the surface a leaving ray must start.
+// The hit, computed from the shape and not along the ray, so that the distance to the ray's origin adds no error;
+// and the height above the surface at which the next ray may start.
 //
-// Sphere, center + r·outward. A unit vector is off by 16u in length (Vulkan allows 9u for the square root
-// and 5u for a division), product and sum round: 17u·r + u·|p|. The next ray's test finds f exactly but
-// for u·r and then, for the roots to have one sign, needs 6u·r (c) or 29u·r (the foot: 15u·r along the ray,
-// 4u·r across, 10u·r of root and sum): 46u·r in all.
-// Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
-// difference is never wrong. Then the instance's transform, as for triangles (common/ray_offset.glsl).
+// Sphere, center + r·outward. A unit vector is off by 16u in length (Vulkan allows 9u for the square root and 5u
+// for a division), product and sum round: 17u·r + u·|p|. To find both roots behind it, the next ray needs 15u·r
+// with the formula of sphere.rint and at most 29u·r with those of common/sphere.glsl: 46u·r in all.
+// Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a difference is
+// never wrong. Then the instance's transform, as for triangles (common/ray_offset.glsl).
 HitPoint hit_point_on_shape(uint id) {
     precise vec3 point;
     vec3 own;

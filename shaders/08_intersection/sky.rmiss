@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "push.glsl"
-#include "hit.glsl"
+#include "common/shape_hit.glsl"
 
 layout(location = 0) rayPayloadInEXT ShapeHit seen;
 

@@ -1,6 +1,5 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
 
-#include "ray.glsl"
 #include "common/views.glsl"
 
 // ANCHOR: path
@@ -8,6 +7,11 @@ struct Path {
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
+};
+
+struct Ray {
+    vec3 origin;
+    vec3 direction;
 };
 
 // Adds what a ray meets. The picture is the sum over the path; every other view ends with the camera's ray.
@@ -45,8 +49,7 @@ bool shines(Hit hit) {
 }
 
 // What a ray has met is lit and gathered, and says which ray comes next.
-void advance(inout Path path, inout Ray ray, CurvedHit seen) {
-    Hit hit = seen.hit;
+void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
     vec3 color = hit.color;
     RayOrigin start = shadow_start(hit);
@@ -85,7 +88,4 @@ void advance(inout Path path, inout Ray ray, CurvedHit seen) {
     path.bounce++;
     ray.origin = hit.position + hit.offset * hit.face;
     ray.direction = mirrored(ray.direction, hit.normal, hit.face);
-    // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
-    ray.width += ray.spread * hit.t;
-    ray.spread += 2.0 * seen.curvature * ray.width;
 }

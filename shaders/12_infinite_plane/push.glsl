@@ -28,19 +28,14 @@ layout(push_constant, scalar) uniform Push {
     float minimum_contribution;
 } push;
 
-// Views of this chapter, beside those of common/show.glsl.
-const uint SHOW_RUNGS = 7;
-
-layout(constant_id = 1) const uint PLANE_RUNG = PLANE_COMPENSATED;
-
 // When the plane is tested.
-layout(constant_id = 2) const uint PLANE_TEST = 0;
+layout(constant_id = 1) const uint PLANE_TEST = 0;
 const uint TEST_BEFORE = 0;
 const uint TEST_AFTER = 1;
 
-layout(constant_id = 3) const bool HAS_PLANE = true;
+layout(constant_id = 2) const bool HAS_PLANE = true;
 
-layout(constant_id = 4) const uint INSIDE = 0;
+layout(constant_id = 3) const uint INSIDE = 0;
 const uint INSIDE_SURFACE = 0;   // seen from both sides
 const uint INSIDE_COLOR = 1;     // shines from inside in a colour of its own
 const uint INSIDE_THROUGH = 2;   // seen from outside only

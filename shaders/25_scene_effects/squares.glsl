@@ -1,4 +1,4 @@
-// Squares on a surface, averaged over what a pixel sees of them (chapter 12).
+// Squares on a surface, averaged over what a pixel sees of them (chapter 43).
 #include "common/checker.glsl"
 #include "ray.glsl"
 

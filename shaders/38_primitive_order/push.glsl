@@ -20,7 +20,6 @@ struct Box {
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Spheres { Sphere at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Boxes { Box at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer HostC { float at[]; };
 
 // A box of the tree that halves the list.
 struct Node {
@@ -48,7 +47,6 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     ShapeAddresses shapes;
-    HostC host_c;         // of each sphere: |camera - center|^2 - radius^2
     DirectionalLight light;
 } push;
 
@@ -66,7 +64,7 @@ const uint KIND_BOX = 1;
 
 // ANCHOR: copies
 // Whether the shapes are read from copies that lie in the order of the build.
-layout(constant_id = 4) const bool COPIES = false;
+layout(constant_id = 2) const bool COPIES = false;
 
 Sphere sphere_of(uint primitive) {
     if (COPIES) {

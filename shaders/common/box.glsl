@@ -1,6 +1,6 @@
 // Taught by 08_intersection.
 //
-// A ray against a box with sides along the axes, in two ways that are equal on paper.
+// A ray against a box with sides along the axes, in two ways that are equal on paper: 08 divides, and 42 compares.
 //
 // A ray is in the box while it is between the walls of all three slabs. t.x is where it enters the last
 // slab, t.y where it leaves the first; `faces` gets the outward normals there. The box is closed.

@@ -1,4 +1,4 @@
-// Taught by 12_infinite_plane.
+// Taught by 43_filtered_checker.
 //
 // A checker board, averaged over what a pixel sees of it.
 

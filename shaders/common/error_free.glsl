@@ -1,4 +1,4 @@
-// Taught by 12_infinite_plane.
+// Taught by 24_accuracy.
 //
 // The error of a sum and of a product, as a float of its own.
 //

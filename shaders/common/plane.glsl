@@ -1,4 +1,4 @@
-// Taught by 12_infinite_plane.
+// Taught by 24_accuracy.
 //
 // A ray against a plane, in four ways that are equal on paper.
 //

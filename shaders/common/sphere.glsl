@@ -1,4 +1,4 @@
-// Taught by 08_intersection.
+// Taught by 42_distant_spheres.
 //
 // A ray against a sphere, in four ways that are equal on paper.
 //

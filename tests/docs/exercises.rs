@@ -477,10 +477,12 @@ fn wrong_names_folders_and_options_are_one_line() {
     let fixture = Fixture::new();
     fixture.write("target/file", "");
     fixture.write("target/other/notes.txt", "");
+    fixture.write("docs/moved.toml", "\"exercise 02.7\" = \"01.2\"\n");
     let path = |name: &str| fixture.path(name).display().to_string();
     let (file, other, below) =
         (path("target/file"), path("target/other"), path("target/file/below"));
-    let cases: [(&[&str], i32, &str); 19] = [
+    let cases: [(&[&str], i32, &str); 20] = [
+        (&["02.7"], 2, "no exercise '02.7'; it is 01.2 now; run: cargo chapters exercise 01.2"),
         (&[], 2, "no exercise is named; --list shows them"),
         (&["09.1"], 2, "no chapter '09'; there is 01_one, 02_basic"),
         (&["02.9"], 2, "no exercise '02.9'; there is 02.1, 02.2, 02.3"),

@@ -60,7 +60,7 @@ const ALSO: [(&str, &[&str]); 10] = [
     ("03_any_hit", &["--set", "mode=random", "--set", "no duplicates=on"]),
     ("04_jitter_camera", &["--frames", "3"]),
     ("07_multi_closest_hit", &["--set", "scale=2"]),
-    ("08_intersection", &["--set", "sphere rung=host c"]),
+    ("42_distant_spheres", &["--set", "sphere rung=host c"]),
     ("11_path_tracing", &["--frames", "3"]),
     ("21_heightfield", &["--set", "rung=relaxed"]),
     ("22_solids", &["--set", "show=normal"]),
@@ -272,7 +272,7 @@ fn frames_are_submissions<Name: AsRef<str>>(samples: &[Name]) {
         ["--compare", "camera eye=-5.6,2.7,8.2|-5.5,2.7,8.2", "--size", "24x1", "--frames"];
     let mut samples: Vec<_> = samples.iter().map(|name| (name.as_ref(), vec![])).collect();
     // There the host computes a number for each sphere, by where the eye is.
-    samples.push(("08_intersection", vec!["--set", "sphere rung=host c"]));
+    samples.push(("42_distant_spheres", vec!["--set", "sphere rung=host c"]));
     for (sample, settings) in samples {
         let submissions = |frames: &str| {
             let arguments = [&moving[..], &[frames], &settings[..]].concat();

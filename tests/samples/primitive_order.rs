@@ -16,9 +16,9 @@ mod order;
 #[path = "../../samples/38_primitive_order/tree.rs"]
 mod tree;
 
-use crate::intersection::shapes;
+use crate::intersection::{scenes, shapes};
 use order::Order;
-use shapes::{SceneKind, Shapes};
+use scenes::SceneKind;
 use tree::Node;
 
 const NAME: &str = "38_primitive_order";
@@ -39,7 +39,7 @@ fn word(order: Order) -> &'static str {
 fn ball() -> Vec<Bounds> {
     let mut chess = Scene::chess().unwrap();
     chess.model.materials.extend(shapes::materials());
-    let shapes = Shapes::new(SceneKind::RandomBall, COUNT, &chess.model, &chess.instances);
+    let shapes = scenes::shapes(SceneKind::RandomBall, COUNT, &chess.model, &chess.instances);
     shapes.spheres.iter().map(shapes::Sphere::bounds).collect()
 }
 
@@ -252,7 +252,7 @@ fn better_orders_are_expected_to_test_fewer_boxes() {
 #[test]
 fn the_view_counts_what_the_tree_costs_each_ray() {
     let bounds = ball();
-    let camera = shapes::camera(SceneKind::RandomBall, Camera::default(), COUNT, 0.0);
+    let camera = scenes::camera(SceneKind::RandomBall, Camera::default(), COUNT);
     let [hits, directions] =
         ["show=hit", "show=ray direction"].map(|show| chapter(SIZE).sets(&[show]).picture());
     let mut held = Map::new();

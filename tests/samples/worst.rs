@@ -136,7 +136,7 @@ fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
     assert!(layer("layer=1", "no duplicates=on") == third, "the second surface");
 }
 
-/// A device may offer a sphere to rays that pass by its box: the rung of 08 that takes every offer for a hit
+/// A device may offer a sphere to rays that pass by its box: the rung of 42 that takes every offer for a hit
 /// sees more of them, and the rungs that test the sphere see the right ones.
 #[test]
 fn a_shader_that_trusts_its_box_is_found_out() {
@@ -146,7 +146,8 @@ fn a_shader_that_trusts_its_box_is_found_out() {
     let pictures = |rung: &str| {
         let set = format!("sphere rung={rung}");
         ["driver", "worst"].map(|arithmetic| {
-            rendered("08_intersection", arithmetic, &["--set", &set, "--set", "show=hit"]).picture
+            let arguments = ["--set", "scene=chess", "--set", &set, "--set", "show=hit"];
+            rendered("42_distant_spheres", arithmetic, &arguments).picture
         })
     };
     let hits = |picture: &Picture, others: &Picture| {

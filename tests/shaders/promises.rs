@@ -217,6 +217,7 @@ fn error_free_sums_demand_rounding_to_nearest() {
                 "22_solids",
                 "24_accuracy",
                 "30_own_tree",
+                "43_filtered_checker",
                 "common",
             ];
             let folder = file.split('/').next().expect("a folder");
@@ -225,9 +226,14 @@ fn error_free_sums_demand_rounding_to_nearest() {
     }
     let requirements = Requirements::ray_tracing();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
-    for name in
-        ["12_infinite_plane", "18_swept_spheres", "22_solids", "25_scene_effects", "30_own_tree"]
-    {
+    for name in [
+        "12_infinite_plane",
+        "18_swept_spheres",
+        "22_solids",
+        "25_scene_effects",
+        "30_own_tree",
+        "43_filtered_checker",
+    ] {
         // A copy that does not compile once the mode is demanded.
         let shaders = run::copy_of_shaders();
         let file = shaders.path().join("common/error_free.glsl");

@@ -117,7 +117,7 @@ fn a_drawing_of_the_book_follows_its_switch_whatever_the_system_prefers() {
     browser.size(1280, 900, false);
     for scheme in SCHEMES {
         prefers(&mut browser, scheme);
-        browser.open(&address("12_infinite_plane.html"));
+        browser.open(&address("43_filtered_checker.html"));
         theme(&mut browser, "light");
         let light = lightness(&mut browser);
         theme(&mut browser, "navy");

@@ -115,7 +115,9 @@ fn every_fault_is_named_with_its_line() {
 fn what_has_moved_leads_on() {
     let folder = book("# One\n");
     let moved = |text: &str| fs::write(folder.path().join("docs/moved.toml"), text).unwrap();
-    moved("# so\n\"one.md#old\" = \"two.md#a-place\"\n\"gone.md\" = \"two.md\"\n");
+    moved(
+        "# so\n\"one.md#old\" = \"two.md#a-place\"\n\"gone.md\" = \"two.md\"\n\"exercise 1.2\" = \"2.1\"\n",
+    );
     let html = built(folder.path()).unwrap();
     assert!(html.contains(r##"{"#old":"two.html#a-place"}"##), "{html}");
     let gone = fs::read_to_string(folder.path().join("book/gone.html")).unwrap();

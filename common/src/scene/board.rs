@@ -4,19 +4,6 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::Placement;
 use super::plane::{HalfSpace, Plane};
-use crate::gpu::Number;
-
-crate::shader_enum! {
-    /// The filtering of the squares.
-    pub enum Checker: CHECKER {
-        /// Averaged over the pixel.
-        Filtered,
-        /// Sampled at the pixel's centre.
-        Point,
-        /// No squares.
-        Off,
-    }
-}
 
 crate::shader_struct! {
     /// The board in its form for shaders.
@@ -33,8 +20,8 @@ crate::shader_struct! {
         pub roughness: f32,
         /// The part of the light mirrored at normal incidence.
         pub reflection: f32,
-        /// The filtering of the squares.
-        pub checker: Number<Checker>,
+        /// 1 for squares, 0 for one colour.
+        pub checker: u32,
         /// Length of a square's side.
         pub square: f32,
         /// Unit vector along one side.
@@ -56,7 +43,7 @@ impl Default for Board {
             specular: 0.0,
             roughness: 1.0,
             reflection: 0.0,
-            checker: Checker::Filtered.into(),
+            checker: 1,
             square: 1.0,
             u: Vec3::X,
             v: Vec3::Z,

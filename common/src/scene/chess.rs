@@ -72,6 +72,15 @@ impl Scene {
         scene.camera = Camera::new(DVec3::new(-8.2, 2.9, 5.2), DVec3::new(-0.2, 0.35, 0.8), 32.0);
         Ok(scene)
     }
+
+    /// Removes the board and the screen, which stands on its frame. A chapter puts a plane in their place.
+    pub fn remove_board(&mut self) {
+        let meshes = &self.model.meshes;
+        self.instances.retain(|instance| {
+            let name = &meshes[instance.mesh].name;
+            !name.starts_with("board") && !name.starts_with("screen")
+        });
+    }
 }
 
 /// As `place_pieces`, for an untrusted position.

@@ -13,6 +13,7 @@ use super::answer::Answer;
 use super::attempt::{Attempt, Originals};
 use super::exercise::{Exercise, Takes};
 use super::formula::plain;
+use super::moved::Moved;
 use super::progress::Progress;
 use super::solution::Solution;
 use super::variant;
@@ -89,7 +90,15 @@ impl ExerciseArguments {
         };
         let one = self.names.first().is_some_and(|name| name.contains('.'));
         match &exercises[..] {
-            [exercise] if one && !self.list => self.about(project, exercise),
+            [exercise] if one && !self.list => {
+                let name = exercise.to_string();
+                if let Some(new) = Moved::read(project).now(&name) {
+                    print(&format!(
+                        "What was exercise {name} before its chapter was split is {new} now.\n"
+                    ))?;
+                }
+                self.about(project, exercise)
+            }
             _ => {
                 let asked = self.check
                     || self.hint

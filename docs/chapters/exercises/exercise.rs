@@ -13,6 +13,7 @@ use manuscript::project::{Chapter, Project};
 
 use super::answer::Answer;
 use super::expectation::Expectation;
+use super::moved::Moved;
 use super::proof::{Run, Step, steps};
 use super::variant::Exempt;
 use crate::patches::patch::{self, Field, Patch};
@@ -96,7 +97,8 @@ impl Exercise {
     /// The exercises that `05.2` or, all of a chapter, `05` means.
     ///
     /// # Errors
-    /// If the file of one of these is wrong, or there is none of this name; the line lists those that there are.
+    /// If the file of one of these is wrong, or there is none of this name; the line tells its new number, or
+    /// lists those that there are.
     pub fn named(project: &Project, name: &str) -> Result<Vec<Self>> {
         let (chapter, number) = name.split_once('.').unwrap_or((name, ""));
         let chapter = project.chapter(chapter)?;
@@ -115,7 +117,12 @@ impl Exercise {
         let names: Vec<String> = found.iter().map(Self::to_string).collect();
         found.retain(|exercise| number.parse() == Ok(exercise.number));
         if found.is_empty() {
-            Err(UsageError(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
+            let old = format!("{}.{number}", chapter.number());
+            let there = match Moved::read(project).now(&old) {
+                Some(new) => format!("it is {new} now; run: cargo chapters exercise {new}"),
+                None => format!("there is {}", names.join(", ")),
+            };
+            Err(UsageError(format!("no exercise '{name}'; {there}")).into())
         } else {
             Ok(found)
         }
@@ -319,5 +326,6 @@ pub fn check(project: &Project) -> Vec<Fault> {
         }
         faults.extend(exercise.patch.patched_in(project).err());
     }
+    faults.extend(Moved::read(project).check(project, &exercises));
     faults
 }

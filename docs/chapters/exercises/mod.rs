@@ -10,6 +10,7 @@ pub mod fingerprint;
 pub mod formula;
 pub mod interval;
 pub mod mismatch;
+pub mod moved;
 pub mod progress;
 pub mod proof;
 pub mod solution;

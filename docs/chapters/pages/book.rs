@@ -180,11 +180,15 @@ impl<'a> Book<'a> {
             let what = format!("nothing measures '{name}'; there is {}", there.join(", "));
             return Err(UsageError(what).into());
         }
+        let was_made = |measurement: &Measurement| {
+            stored.get(&measurement.name).is_some_and(|record| record.commit.is_some())
+        };
+        let can_be_made = measurements.iter().filter(|measurement| !was_made(measurement));
         let wanted = |measurement: &&Measurement| match names[..] {
             [] => measurement.fault(stored.get(&measurement.name)).is_some(),
             _ => names.iter().any(|name| is_of(measurement, name)),
         };
-        let wanted: Vec<&Measurement> = measurements.iter().filter(|m| wanted(m)).collect();
+        let wanted: Vec<&Measurement> = can_be_made.filter(|m| wanted(m)).collect();
         faults.extend(measurement::renew(self.programs, &wanted, &stored, done)?);
         Ok(faults)
     }

@@ -87,7 +87,7 @@ fn held(folder: &Path) -> Result<Values> {
 
 fn measured(timed: bool, (device, driver): (String, String), values: Map<String, Value>) -> Record {
     let [command, date] = [const { String::new() }; 2];
-    Record { command, timed, device, driver, date, values }
+    Record { command, timed, device, driver, date, commit: None, values }
 }
 
 /// The values in a sample's report: of `--compare`, of `--compile-for`, else its times, its memory and the numbers

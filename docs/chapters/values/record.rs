@@ -37,6 +37,9 @@ pub struct Record {
     /// The day, as `2026-11-22`; empty before the first measurement.
     #[serde(default)]
     pub date: String,
+    /// The last commit that had this command, if it can no longer be run; the values then stay as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
     /// The numbers, by name, in the order in which the command gave them.
     #[serde(default)]
     pub values: Map<String, Value>,

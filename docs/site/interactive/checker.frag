@@ -2,7 +2,7 @@
 #include "common/camera.glsl"
 #include "common/plane.glsl"
 #include "common/checker.glsl#checker_light"
-#include "12_infinite_plane/board.glsl#footprint"
+#include "43_filtered_checker/board.glsl#footprint"
 
 uniform vec3 eye;
 uniform vec3 right;

@@ -1,4 +1,4 @@
-// The checker board of chapter 12: one square a pixel, or the mean of a pixel's squares, and what is wrong with it.
+// The checker board of chapter 43: one square per pixel, or the mean of a pixel's squares, and what is wrong with it.
 figures.add("checker", figure => {
     const SIDE = 128;
     const CHECKERS = ["filtered", "point", "144 rays"];

@@ -1,4 +1,4 @@
-// The sphere of chapter 08 from any distance, by each rung, and its error in ULP.
+// The sphere of chapter 42 from any distance, by each rung, and its error in ULP.
 figures.add("sphere", figure => {
     const SIDE = 240;
     const RUNGS = ["textbook", "stable", "two-float"];

@@ -29,7 +29,7 @@ const CASES: [(f64, f64); 9] = [
     (10.0, 1e6),
 ];
 
-/// The error that 08 allows the device's test of a box: so many times 2^-24 of the distance to it.
+/// The error that 42 allows the device's test of a box: so many times 2^-24 of the distance to it.
 const RELIED: f64 = 10.0;
 
 /// Depth within the box of the deepest lost ray, by 2^-24 of the distance to the box's far side.

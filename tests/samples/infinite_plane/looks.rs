@@ -1,13 +1,12 @@
-//! The plane looked at: its two sides, its squares, and what stands on and above it.
+//! The plane looked at: its two sides, and what stands on and above it.
 
 use common::scene::Camera;
 use glam::DVec3;
 use reference::sphere::Sphere;
-use serde_json::json;
 
 use super::{Octahedron, PLANE, chapter, level};
 use run::primary_hits::rays;
-use run::{bits, expected};
+use run::bits;
 
 #[test]
 fn inside_and_outside_are_told_apart() {
@@ -88,67 +87,4 @@ fn the_four_spheres_are_where_they_should_be() {
     }
     println!("pixels of the three red balls, the blue one, the plane, the sky: {seen:?}");
     assert!(seen.iter().all(|count| *count > 200), "{seen:?}");
-}
-
-#[test]
-fn the_checker_board_is_averaged_over_each_pixel() {
-    let model = Octahedron::out_of_sight();
-    // From above to the horizon.
-    let sets = [
-        "camera eye=0.3,1.5,0.2",
-        "camera target=1,0.9,-2",
-        "field of view=60",
-        "plane reflection=0",
-        "light squares=1,1,1",
-        "dark squares=0,0,0",
-    ];
-    // What the plane is, how light, and how far away.
-    let light = |size: &str, checker: &str| {
-        let [hits, squares] = ["show=hit", "show=triangle"].map(|show| {
-            chapter()
-                .size(size)
-                .sets(&sets)
-                .sets(&[checker, show])
-                .scene(model.path())
-                .picture()
-                .pixels
-        });
-        let both = hits.iter().zip(squares).map(|(hit, square)| [hit[0], square[0], hit[2]]);
-        both.collect::<Vec<_>>()
-    };
-    const FINE: usize = 12;
-    let (width, height) = (64, 40);
-    let filtered = light("64x40", "checker=filtered");
-    let point = light("64x40", "checker=point");
-    let fine = light("768x480", "checker=point");
-    let (mut count, mut filtered_error, mut point_error, mut worst) = (0, 0.0, 0.0, 0.0f32);
-    for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {
-        let pixels = (0..FINE * FINE).map(|i| {
-            let (y, x) = (row * FINE + i / FINE, column * FINE + i % FINE);
-            fine[y * width * FINE + x]
-        });
-        let pixels: Vec<_> = pixels.collect();
-        if pixels.iter().any(|pixel| pixel[0] != PLANE) {
-            continue;
-        }
-        let mean = pixels.iter().map(|pixel| pixel[1]).sum::<f32>() / pixels.len() as f32;
-        let at = row * width + column;
-        count += 1;
-        let error = (filtered[at][1] - mean).abs();
-        worst = worst.max(error);
-        filtered_error += error;
-        point_error += (point[at][1] - mean).abs();
-    }
-    let (filtered_error, point_error) = (filtered_error / count as f32, point_error / count as f32);
-    println!(
-        "{count} pixels: filtered off by {filtered_error:.3} (most {worst:.2}), \
-         at the middle by {point_error:.3}"
-    );
-    let found = json!({ "rays": FINE * FINE, "filtered": filtered_error, "point": point_error });
-    expected::hold("12_infinite_plane/checker", found);
-    assert!(count > 1000 && filtered_error < 0.06 && point_error > 4.0 * filtered_error);
-    // Towards the horizon all is grey, and nothing is cut off.
-    let horizon = filtered.iter().filter(|pixel| pixel[0] == PLANE && pixel[2] > 60.0);
-    assert!(horizon.clone().count() > 40);
-    assert!(horizon.clone().all(|pixel| (pixel[1] - 0.5).abs() < 0.05));
 }

@@ -1,14 +1,15 @@
-//! The shapes as the reference takes them.
+//! The shapes in the form that the reference intersects.
 
-use common::scene::Scene;
+use common::model::Model;
+use common::scene::{Instance, Scene};
 use glam::DVec3;
 use reference::Ray;
 use reference::aabb::Aabb;
 use reference::sphere::Sphere;
 
-use super::shapes::{self, SceneKind, Shapes};
+use super::shapes::{self, Shapes};
 
-/// A scene's shapes as the reference takes them, by the ids that the shaders write.
+/// A scene's shapes in the form that the reference intersects, by the ids that the shaders write.
 pub struct ReferenceShapes {
     pub spheres: Vec<Sphere>,
     pub boxes: Vec<Aabb>,
@@ -20,10 +21,11 @@ pub struct ReferenceShapes {
 pub type Id = (u32, u32);
 
 impl ReferenceShapes {
-    pub fn new(scene: SceneKind, count: u32) -> Self {
+    /// The shapes that a chapter's scene makes for the chess set's model and pieces.
+    pub fn new(make: impl FnOnce(&Model, &[Instance]) -> Shapes) -> Self {
         let mut chess = Scene::chess().unwrap();
         chess.model.materials.extend(shapes::materials());
-        let shapes = Shapes::new(scene, count, &chess.model, &chess.instances);
+        let shapes = make(&chess.model, &chess.instances);
         let sphere =
             |s: &shapes::Sphere| Sphere { center: s.center.as_dvec3(), radius: s.radius.into() };
         let aabb = |b: &shapes::Box| Aabb { low: b.low.as_dvec3(), high: b.high.as_dvec3() };

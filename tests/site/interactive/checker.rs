@@ -1,4 +1,4 @@
-//! 12's checker board, held to rays against the exact plane and to the mean of squares in 64 bits.
+//! 43's checker board, compared with rays against the exact plane and with the mean of squares in 64 bits.
 
 use glam::{DVec2, DVec3};
 use reference::Ray;
@@ -9,7 +9,7 @@ use super::{found, shown};
 use crate::browser::Browser;
 use crate::reading::address;
 
-pub const PAGE: &str = "12_infinite_plane.html";
+pub const PAGE: &str = "43_filtered_checker.html";
 
 const SIDE: usize = 128;
 const FINE: usize = 12;

@@ -1,4 +1,4 @@
-//! 08's digits of a discriminant, held to exact products and to floats.
+//! 42's digits of a discriminant, held to exact products and to floats.
 
 use reference::rational::rational;
 
@@ -6,7 +6,7 @@ use super::{found, shown};
 use crate::browser::Browser;
 use crate::reading::address;
 
-pub const PAGE: &str = "08_intersection.html";
+pub const PAGE: &str = "42_distant_spheres.html";
 
 /// b² and a·c, exactly, in millionths and rounded down.
 fn operands([ox, oy]: [f32; 2], [dx, dy]: [f32; 2]) -> [String; 2] {

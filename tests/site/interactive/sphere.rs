@@ -1,4 +1,4 @@
-//! 08's sphere by each rung, held to the exact one.
+//! 42's sphere by each rung, held to the exact one.
 
 use reference::Ray;
 use reference::sphere::Sphere;
@@ -8,7 +8,7 @@ use super::{found, shown, stored};
 use crate::browser::Browser;
 use crate::reading::address;
 
-pub const PAGE: &str = "08_intersection.html";
+pub const PAGE: &str = "42_distant_spheres.html";
 
 #[test]
 #[ignore = "nightly only: in a browser"]
@@ -23,7 +23,7 @@ fn the_spheres_agree_with_the_exact_ones() {
                 .map(i => [i, ...found.answers.slice(4 * i, 4 * i + 4)]) }})"
     );
     // What the rungs gave with Vulkan on llvmpipe, over all rays.
-    let given = stored("08_intersection/errors");
+    let given = stored("42_distant_spheres/errors");
     let given = |name: String| given["values"][&*name].as_f64().unwrap();
     for (steps, distance) in [(0, 1), (40, 100), (80, 10_000)] {
         let slider = steps.to_string();

@@ -95,11 +95,13 @@ impl Geometry {
                         .index_data(address(indices)),
                 }
             }
+            // ANCHOR: aabbs
             Self::Aabbs { boxes, .. } => vk::AccelerationStructureGeometryDataKHR {
                 aabbs: vk::AccelerationStructureGeometryAabbsDataKHR::default()
                     .data(address(boxes))
                     .stride(size_of::<vk::AabbPositionsKHR>() as u64),
             },
+            // ANCHOR_END: aabbs
             Self::Instances { instances, .. } => vk::AccelerationStructureGeometryDataKHR {
                 instances: vk::AccelerationStructureGeometryInstancesDataKHR::default()
                     .data(address(instances)),

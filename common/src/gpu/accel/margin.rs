@@ -33,6 +33,7 @@ pub fn margin(reach: f32) -> f32 {
 ///     boxes_on_gpu(gpu, "sphere", &[padded((Vec3::NEG_ONE, Vec3::ONE), 100.0)])
 /// }
 /// ```
+// ANCHOR: padded_box
 pub fn padded((low, high): Bounds, reach: f32) -> [Vec3; 2] {
     if reach == 0.0 {
         return [low, high];
@@ -41,6 +42,7 @@ pub fn padded((low, high): Bounds, reach: f32) -> [Vec3; 2] {
     let margin = DVec3::splat(margin(reach).into()) + 0.5f64.powi(23) * coordinate;
     [down(low.as_dvec3() - margin), -down(-(high.as_dvec3() + margin))]
 }
+// ANCHOR_END: padded_box
 
 /// An upper bound of the distance from a ray's origin to a shape: rays start at the eye or, as shadow rays do,
 /// anywhere on the scene. Rounded up to a power of two, so that few steps of a camera change it.

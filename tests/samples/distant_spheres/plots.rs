@@ -6,10 +6,10 @@ use glam::DVec3;
 use reference::sphere::Sphere;
 use serde_json::Map;
 
+use super::chapter;
 use super::errors::Errors;
 use super::rungs::{RUNGS, with_t};
-use super::shapes::SceneKind;
-use super::{chapter, shapes};
+use super::scenes::{self, SceneKind};
 use run::expected;
 use run::plot::{Shown, draw_panels};
 
@@ -31,7 +31,7 @@ fn errors_at_every_distance() {
                 &format!("distance={distance}"),
                 &format!("sphere rung={rung}"),
             ];
-            let camera = shapes::camera(SceneKind::OneSphere, Camera::default(), 1, distance);
+            let camera = scenes::camera(SceneKind::OneSphere, Camera::default(), 1, distance);
             let shown = chapter(&size).sets(&sets).sets(&["show=ray direction"]).picture();
             let mut errors = Errors::default();
             let mut map = Vec::new();
@@ -58,9 +58,9 @@ fn errors_at_every_distance() {
             rows[2 * row + 1].push((errors.label(), map));
         }
     }
-    expected::hold("08_intersection/errors", table.into());
+    expected::hold("42_distant_spheres/errors", table.into());
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
-        draw_panels("08_errors.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
+        draw_panels("42_errors.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
     }
 }
 

@@ -8,9 +8,8 @@ use reference::ulp::ulp_error;
 use serde_json::{Map, json};
 
 use super::errors::Errors;
-use super::reference_shapes::ReferenceShapes;
-use super::shapes::SceneKind;
-use super::{NAME, SIZE, chapter, shapes};
+use super::scenes::{self, SceneKind};
+use super::{NAME, SIZE, chapter, reference};
 use common::app::Picture;
 use run::primary_hits::{answer, rays};
 use run::{expected, render};
@@ -32,7 +31,7 @@ fn lone_sphere(rung: &str, distance: f32) -> Errors {
         "show=ray direction",
     ];
     let chess = Camera::default();
-    let camera = shapes::camera(SceneKind::OneSphere, chess, 1, distance);
+    let camera = scenes::camera(SceneKind::OneSphere, chess, 1, distance);
     let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
     let mut errors = Errors::default();
     for (ray, t) in with_t(&camera, &chapter(SIZE).sets(&sets).picture()) {
@@ -68,8 +67,8 @@ fn each_rung_keeps_its_bar_at_every_distance() {
 
 #[test]
 fn the_hosts_c_keeps_a_planet() {
-    let exact = ReferenceShapes::new(SceneKind::Planet, 0);
-    let camera = shapes::camera(SceneKind::Planet, Camera::default(), 0, 0.0);
+    let exact = reference(SceneKind::Planet, 0);
+    let camera = scenes::camera(SceneKind::Planet, Camera::default(), 0, 0.0);
     let mut table = Map::new();
     for rung in RUNGS {
         let set = format!("sphere rung={rung}");
@@ -93,11 +92,11 @@ fn the_hosts_c_keeps_a_planet() {
         let p99 = errors.at(0.99);
         assert!(if rung == "host c" { p99 <= 10.0 } else { p99 > 1000.0 }, "{rung}: {p99}");
     }
-    expected::hold("08_intersection/planet", table.into());
+    expected::hold("42_distant_spheres/planet", table.into());
 }
 
 #[test]
-fn from_inside_the_far_side_is_hit() {
+fn each_rung_hits_the_far_side_from_inside() {
     let eye = DVec3::new(0.25, -0.125, 0.5);
     let camera = Camera::new(eye, DVec3::ZERO, 90.0);
     let look = ["camera eye=0.25,-0.125,0.5", "camera target=0,0,0", "field of view=90"];
@@ -112,7 +111,7 @@ fn from_inside_the_far_side_is_hit() {
         }
     }
     // A grid of eight: the box at (0.5, -0.5, -0.5), seen from within.
-    let exact = ReferenceShapes::new(SceneKind::Grid, 8);
+    let exact = reference(SceneKind::Grid, 8);
     let aabb =
         exact.boxes.iter().position(|b| b.contains_exact(&DVec3::new(0.5, -0.5, -0.5).into()));
     let id = (exact.first + 1, aabb.unwrap() as u32);
@@ -132,7 +131,7 @@ fn from_inside_the_far_side_is_hit() {
 #[test]
 fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
     const WALL: f64 = 0.5 + 0.28125;
-    let exact = ReferenceShapes::new(SceneKind::Grid, 10_000);
+    let exact = reference(SceneKind::Grid, 10_000);
     let look = [
         format!("camera eye={WALL},0.1,40"),
         format!("camera target={WALL},0.1,0"),
@@ -163,21 +162,21 @@ fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
     let ([reciprocal, _], [division, along]) = (count("reciprocal"), count("division"));
     println!("rays along a wall: {reciprocal} hits by reciprocals, {division} by division");
     let found = json!({ "reciprocal": reciprocal, "division": division });
-    expected::hold("08_intersection/walls", found);
+    expected::hold("42_distant_spheres/walls", found);
     assert!(reciprocal <= division, "{reciprocal} {division}");
     assert!(2 * division >= along, "{division} of {along}");
     assert!(division > 30 || !run::device::is_software(), "{division}");
     // GLSL does not say what `min` makes of what is not a number: Mesa 25.0.7 loses the hits by it, and 26.2.6
     // happens to find them.
-    if expected::are_of_this_driver("08_intersection/walls") {
+    if expected::are_of_this_driver("42_distant_spheres/walls") {
         assert!(reciprocal < division / 2, "{reciprocal} {division}");
     }
 }
 
 #[test]
 fn the_margin_offers_every_hit() {
-    let exact = ReferenceShapes::new(SceneKind::Dust, 10_000);
-    let camera = shapes::camera(SceneKind::Dust, Camera::default(), 10_000, 0.0);
+    let exact = reference(SceneKind::Dust, 10_000);
+    let camera = scenes::camera(SceneKind::Dust, Camera::default(), 10_000, 0.0);
     let sets = ["scene=dust", "sphere rung=offered", "show=ray direction"];
     let count = |margin: &str| {
         let (mut hits, mut never) = (0, 0);
@@ -194,7 +193,7 @@ fn the_margin_offers_every_hit() {
     assert_eq!(count("margin=on").1, 0);
     // What llvmpipe does without; a device that widens boxes by itself may do better.
     let (hits, never) = count("margin=off");
-    expected::hold("08_intersection/margin", json!({ "hits": hits, "never": never }));
+    expected::hold("42_distant_spheres/margin", json!({ "hits": hits, "never": never }));
     let device = render(NAME, "8x5", &[]).report["device"].as_str().unwrap().to_owned();
     assert!(never > 20 || !device.contains("llvmpipe"), "{never}");
 }

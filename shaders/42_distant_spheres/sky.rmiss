@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "push.glsl"
-#include "hit.glsl"
+#include "common/shape_hit.glsl"
 
-layout(location = 0) rayPayloadInEXT CurvedHit seen;
+layout(location = 0) rayPayloadInEXT ShapeHit seen;
 
 // The ray hit nothing: it sees the sky.
 void main() {

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
+#include "push.glsl"
+#include "common/shape_hit.glsl"
+#include "common/report.glsl"
+
+layout(location = 0) rayPayloadInEXT ShapeHit seen;
+hitAttributeEXT vec2 barycentrics;
+
+// The nearest hit: what surface it is, and where.
+void main() {
+    seen.hit = report(push.scene, barycentrics);
+    seen.kind = gl_HitKindEXT;
+}
