@@ -91,10 +91,21 @@ const GRAZING: f64 = 1.0;
 const TOPS: [&str; 10] = ["S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", "I2"];
 
 #[test]
+fn every_rung_keeps_its_promise_on_two_thousand_rays_a_family() {
+    let report = report(&["--rays", "2000"]);
+    every_rung_keeps_its_promise(&report);
+}
+
+#[test]
+#[ignore = "nightly: five times the rays; quick: bars::every_rung_keeps_its_promise_on_two_thousand_rays_a_family"]
 fn every_rung_keeps_its_promise_on_ten_thousand_rays_a_family() {
     let report = report(&["--rays", "10000"]);
-    compiled::check(&report);
     tables::hold_errors(&report);
+    every_rung_keeps_its_promise(&report);
+}
+
+fn every_rung_keeps_its_promise(report: &Value) {
+    compiled::check(report);
     let rungs = report["rungs"].as_array().unwrap();
     for (rung, family, bar) in P99 {
         let Some(row) = row(rungs, rung, family, "direct") else { continue };
@@ -160,8 +171,18 @@ fn simple_rungs_fail_as_the_page_says(rungs: &[Value]) {
 }
 
 #[test]
+fn bounces_neither_meet_their_sphere_nor_lose_an_occluder() {
+    bounces_are_right("17000", 1.5e5);
+}
+
+#[test]
+#[ignore = "nightly: ten times the rays; quick: bars::bounces_neither_meet_their_sphere_nor_lose_an_occluder"]
 fn a_million_bounces_neither_meet_their_sphere_nor_lose_an_occluder() {
-    let rungs = measure(&["--only", "secondary origin", "--rays", "170000"]);
+    bounces_are_right("170000", 1.5e6);
+}
+
+fn bounces_are_right(count: &str, least: f64) {
+    let rungs = measure(&["--only", "secondary origin", "--rays", count]);
     let best = rungs.iter().find(|rung| rung["rung"] == "O5").unwrap();
     let mut rays = 0.0;
     for row in best["errors"].as_array().unwrap().iter().map(|row| Row(row.clone())) {
@@ -169,7 +190,7 @@ fn a_million_bounces_neither_meet_their_sphere_nor_lose_an_occluder() {
         assert_eq!(row.number("not_finite"), 0.0, "{}", row.0["family"]);
         rays += row.number("rays");
     }
-    assert!(rays > 1.5e6, "{rays}");
+    assert!(rays > least, "{rays}");
     let worst = |rung: &str| {
         let rung = rungs.iter().find(|row| row["rung"] == rung).unwrap();
         let errors = rung["errors"].as_array().unwrap().iter().map(|row| Row(row.clone()));

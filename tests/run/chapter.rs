@@ -1,11 +1,13 @@
 //! A run of a chapter, told as a sentence: `Chapter::new("22_solids").set("view", "inside").picture()`.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 
 use common::app::Picture;
 
-use crate::{Run, command, golden, render_by};
+use crate::{Run, bits, command, golden, render_by};
 
 /// The arguments that set controls, each `name=value`.
 pub fn set_arguments<'a>(settings: &[&'a str]) -> Vec<&'a str> {
@@ -96,11 +98,32 @@ impl Chapter {
         self.run().picture
     }
 
+    /// The picture of a run, which tests of this program that ask for the same share: equal commands give equal bytes,
+    /// which [`Chapter::repeats`] tests. Not for files and shaders of a test's own, which may change under their name.
+    #[track_caller]
+    pub fn shared_picture(&self) -> Arc<Picture> {
+        /// A run's picture, by the run's name, size and arguments.
+        type Shared = HashMap<(String, String, Vec<String>), Arc<OnceLock<Arc<Picture>>>>;
+        static SHARED: LazyLock<Mutex<Shared>> = LazyLock::new(Mutex::default);
+        assert!(self.shaders.is_none(), "shaders of a test's own are not shared");
+        let key = (self.name.clone(), self.size.clone(), self.arguments.clone());
+        let mut all = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+        let slot = Arc::clone(all.entry(key).or_default());
+        drop(all);
+        Arc::clone(slot.get_or_init(|| Arc::new(self.picture())))
+    }
+
+    /// Runs it again: the picture must have the same bits.
+    #[track_caller]
+    pub fn repeats(&self) {
+        assert!(bits(&self.shared_picture()) == bits(&self.picture()), "another picture");
+    }
+
     /// Runs it and compares its picture with the golden one, `tests/golden/NAME.png`.
     ///
     /// The tolerance is that of llvmpipe (Mesa 25.0.7), which made the goldens and repeats them to the bit.
     #[track_caller]
     pub fn is_golden(&self) {
-        golden(&self.name, &self.picture(), flip::TOLERANCE);
+        golden(&self.name, &self.shared_picture(), flip::TOLERANCE);
     }
 }

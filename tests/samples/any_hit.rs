@@ -1,5 +1,7 @@
 //! 03_any_hit: cut-outs, transparency that no order can change, and the list of every hit.
 
+use std::sync::Arc;
+
 use common::app::Picture;
 use common::model::{Model, Texture};
 use common::scene::Scene;
@@ -7,13 +9,18 @@ use reference::Ray;
 use serde_json::json;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{expected, render, same_answers};
+use run::{Chapter, expected, render, same_answers};
 
 const NAME: &str = "03_any_hit";
 const SIZE: &str = "240x150";
 
-fn hits(arguments: &[&str]) -> Picture {
-    render(NAME, SIZE, &[&["--set", "show=hit", "--set", "samples=1"], arguments].concat()).picture
+fn hits(arguments: &[&str]) -> Arc<Picture> {
+    let chapter = Chapter::new(NAME).size(SIZE).sets(&["show=hit", "samples=1"]);
+    chapter.with(arguments).shared_picture()
+}
+
+fn directions() -> Arc<Picture> {
+    Chapter::new(NAME).size(SIZE).sets(&["mode=opaque", "show=ray direction"]).shared_picture()
 }
 
 /// Pixels whose hits differ: those at the same distance, and the others.
@@ -22,9 +29,9 @@ fn hits(arguments: &[&str]) -> Picture {
 /// distances are the same if they differ by no more than the two bounds on their errors.
 fn differences(a: &Picture, b: &Picture) -> (usize, usize) {
     let scene = Scene::chess().unwrap();
-    let directions = render(NAME, SIZE, &["--set", "mode=opaque", "--set", "show=ray direction"]);
     let exact = reference(&scene);
-    let rays = rays(&scene.camera, &directions.picture);
+    let directions = directions();
+    let rays = rays(&scene.camera, &directions);
     let (mut ties, mut others) = (0, 0);
     for ((ray, a), b) in rays.zip(&a.pixels).zip(&b.pixels).filter(|((_, a), b)| a[..3] != b[..3]) {
         let bound = |hit: &[f32; 4]| {
@@ -50,10 +57,10 @@ fn a_ray_through_a_cut_out_sees_what_is_behind() {
     let screen = scene.model.meshes.iter().position(|mesh| mesh.name == "screen").unwrap();
     let opaque = hits(&["--set", "mode=opaque"]);
     let cut_out = hits(&["--set", "mode=cut-out"]);
-    let directions = render(NAME, SIZE, &["--set", "mode=opaque", "--set", "show=ray direction"]);
     let exact = reference(&scene);
     let (mut passed, mut stopped) = (0, 0);
-    let rays = rays(&scene.camera, &directions.picture);
+    let directions = directions();
+    let rays = rays(&scene.camera, &directions);
     for ((ray, before), after) in rays.zip(&opaque.pixels).zip(&cut_out.pixels) {
         let Some(answer) = answer(before) else { continue };
         if scene.instances[answer.instance as usize].mesh != screen {
@@ -135,7 +142,17 @@ fn a_second_invocation_changes_only_the_naive_way() {
 
 #[test]
 fn the_list_of_hits_is_the_reference_s() {
-    for no_duplicates in ["no duplicates=off", "no duplicates=on"] {
+    lists_are_the_reference_s(&["no duplicates=on"]);
+}
+
+#[test]
+#[ignore = "nightly: lists with duplicates; quick: any_hit::the_list_of_hits_is_the_reference_s"]
+fn so_it_is_with_duplicates() {
+    lists_are_the_reference_s(&["no duplicates=off", "no duplicates=on"]);
+}
+
+fn lists_are_the_reference_s(settings: &[&str]) {
+    for no_duplicates in settings {
         let (lists, rays) = listed(no_duplicates);
         let exact = reference(&Scene::chess().unwrap());
         let (mut listed, mut excused, mut duplicates) = (0, 0, 0);

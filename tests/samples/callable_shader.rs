@@ -35,9 +35,9 @@ fn every_way_to_choose_gives_the_same_bits() {
 fn patterns_have_the_same_bits_on_the_host_near_and_far() {
     let materials = Scene::chess().expect("the chess set").model.materials;
     let mut seen = [0; 3];
+    let places = chapter("240x150").sets(&["show=object position"]).picture();
     for far in [0, 1, 1000, 1 << 24] {
         let far_control = format!("far={far}");
-        let places = chapter("240x150").sets(&["show=object position"]).picture();
         let weights = chapter("240x150").sets(&["show=pattern", &far_control]).picture();
         for (&[x, y, z, material], &[weight, ..]) in places.pixels.iter().zip(&weights.pixels) {
             if material < 0.0 {

@@ -21,8 +21,7 @@ fn bent() -> String {
 
 #[test]
 fn the_picture_repeats() {
-    let [first, second] = [0, 1].map(|_| Chapter::new(NAME).picture());
-    assert_eq!(bits(&first), bits(&second));
+    Chapter::new(NAME).repeats();
 }
 
 /// A field of a type that does not exist stops the pipelines that carry it, and no others.

@@ -27,8 +27,7 @@ fn chapter(size: &str) -> Chapter {
 
 #[test]
 fn the_picture_repeats() {
-    let [first, second] = [0, 1].map(|_| Chapter::new(NAME).frames(16).picture());
-    assert_eq!(bits(&first), bits(&second));
+    Chapter::new(NAME).frames(16).repeats();
 }
 
 #[test]

@@ -157,10 +157,22 @@ fn in_f64(affine: &Affine3A) -> DAffine3 {
 #[test]
 fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does_not() {
     run::needs!(NAME);
+    points_from_afar(&[1e2, 1e6]);
+}
+
+#[test]
+#[ignore = "nightly: the other distances; quick: position_fetch::from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does_not"]
+fn so_it_is_from_every_distance() {
+    run::needs!(NAME);
+    let table = points_from_afar(&[1e1, 1e2, 1e3, 1e4, 1e5, 1e6]);
+    expected::hold("10_position_fetch/afar", table.into());
+}
+
+fn points_from_afar(distances: &[f64]) -> Map<String, Value> {
     let scene = Scene::chess().expect("the chess set");
     let mut table = Map::new();
     let towards = (scene.camera.eye - scene.camera.target).normalize();
-    for distance in [1e1, 1e2, 1e3, 1e4, 1e5, 1e6] {
+    for &distance in distances {
         // A lens so long that the board fills the picture.
         let camera = Camera {
             eye: scene.camera.target + distance * towards,
@@ -177,16 +189,28 @@ fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does
         assert!(along_the_ray[1].0 > distance / 100.0, "{distance}: {along_the_ray:?}");
         assert!(along_the_ray[0].1 < 16.0 * distance, "{distance}: {along_the_ray:?}");
     }
-    expected::hold("10_position_fetch/afar", table.into());
+    table
 }
 
 #[test]
 fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_not() {
     run::needs!(NAME);
+    points_on_large_triangles(&[1e2, 1e6]);
+}
+
+#[test]
+#[ignore = "nightly: the other sizes; quick: position_fetch::a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_not"]
+fn so_it_does_at_every_size() {
+    run::needs!(NAME);
+    let table = points_on_large_triangles(&[1e1, 1e2, 1e3, 1e4, 1e5, 1e6]);
+    expected::hold("10_position_fetch/large", table.into());
+}
+
+fn points_on_large_triangles(sizes: &[f64]) -> Map<String, Value> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let camera = Camera::new(DVec3::new(0.2, 1.0, 0.3), DVec3::ZERO, 40.0);
     let mut table = Map::new();
-    for size in [1e1, 1e2, 1e3, 1e4, 1e5, 1e6] {
+    for &size in sizes {
         let file = folder.path().join("square.obj");
         // A little crooked, so that no product is exact.
         let corners = [[1.1, 1.0], [1.0, -1.3], [-1.2, -1.0], [-1.0, 1.4]];
@@ -204,5 +228,5 @@ fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_n
         assert!(by_corners[1].1 < 1e-6, "{size}: {by_corners:?}");
         assert!(along_the_ray[0].0 < 1.0, "{size}: {along_the_ray:?}");
     }
-    expected::hold("10_position_fetch/large", table.into());
+    table
 }

@@ -50,8 +50,7 @@ fn seen(from: &[String], sets: &[&str]) -> Picture {
 
 #[test]
 fn the_picture_repeats() {
-    let [first, second] = [0, 1].map(|_| Chapter::new(NAME).picture());
-    assert_eq!(bits(&first), bits(&second));
+    Chapter::new(NAME).repeats();
 }
 
 #[test]

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use self::points::{Scrambling, Sequence, sample_point};
 use crate::jitter_camera::{error, offsets};
-use run::{Chapter, bits, expected, render, same_colors};
+use run::{Chapter, expected, render, same_colors};
 
 const NAME: &str = "37_sequences";
 const SIZE: &str = "240x150";
@@ -21,8 +21,7 @@ fn chapter(size: &str) -> Chapter {
 
 #[test]
 fn the_picture_repeats() {
-    let [first, second] = [0, 1].map(|_| Chapter::new(NAME).frames(16).picture());
-    assert_eq!(bits(&first), bits(&second));
+    Chapter::new(NAME).frames(16).repeats();
 }
 
 #[test]

@@ -32,9 +32,8 @@ fn seen(slid: f64, sets: &[&str]) -> Picture {
         .picture()
 }
 
-/// The pixels in which, with their four neighbours, a surface and no other is seen in so many frames.
-fn pixels(surface: f32, count: usize) -> Vec<usize> {
-    let frames: Vec<Picture> = (0..count).map(|i| seen(STEP * i as f64, &["show=hit"])).collect();
+/// The pixels in which, with their four neighbours, a surface and no other is seen in all frames.
+fn pixels(surface: f32, frames: &[Picture]) -> Vec<usize> {
     let shows = |i: usize| frames.iter().all(|frame| frame.pixels[i][0] == surface);
     let (width, height) = (144, 90);
     let all = (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| y * width + x));
@@ -72,8 +71,9 @@ fn judged(found: &[Picture], truth: &[Picture], pixels: &[usize]) -> [f64; 2] {
 fn tables(count: usize, truth: &[&str]) -> Vec<(&'static str, usize, [[f64; 2]; 4])> {
     let truth = frames(count, truth);
     let found = FOOTPRINTS.map(|footprint| frames(count, &[&format!("footprint={footprint}")]));
+    let hits: Vec<Picture> = (0..count).map(|i| seen(STEP * i as f64, &["show=hit"])).collect();
     let table = SURFACES.map(|(name, surface)| {
-        let pixels = pixels(surface, count);
+        let pixels = pixels(surface, &hits);
         let judged = found.each_ref().map(|frames| judged(frames, &truth, &pixels));
         println!("{name}, {} pixels: {judged:.4?}", pixels.len());
         let [_, flat, curved, differentials] = judged;

@@ -7,7 +7,7 @@ use common::model::obj;
 use common::scene::{Camera, assets};
 use glam::{DQuat, DVec3};
 use run::expected;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::leg::Motion;
 use super::motion::Placed;
@@ -59,6 +59,17 @@ fn met((o, d): (DVec3, DVec3), center: DVec3, way: DVec3, radius: f64) -> f64 {
 /// and no more than the outer one; and each end of that time may cost a sample.
 #[test]
 fn the_smear_of_a_ball_is_its_closed_form() {
+    smears_of_a_ball("192x120", 64);
+}
+
+#[test]
+#[ignore = "nightly: 256 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
+fn so_it_is_by_more_samples() {
+    expected::hold("23_motion_blur/ball", smears_of_a_ball("192x120", 256));
+}
+
+/// Holds a picture of each method to the closed form; returns how far they are off.
+fn smears_of_a_ball(size: &str, samples: u32) -> Value {
     let file = run::root().join("tests/data/ball.legs");
     let motion = legs::open(&file).unwrap();
     let [open, close] = ends(&motion, 16).map(|placed| placed.place.as_dvec3() + BALL * DVec3::Y);
@@ -66,9 +77,9 @@ fn the_smear_of_a_ball_is_its_closed_form() {
     let half = (PI / (2.0 * f64::from(ball::ROWS))).cos();
     let inner = BALL * half * half;
     let mut held = json!({});
-    for (method, samples, lost) in [("swept", 256, 2.0 / 256.0), ("moments", 256, 2.0 / 8.0)] {
+    for (method, lost) in [("swept", 2.0 / f64::from(samples)), ("moments", 2.0 / 8.0)] {
         let sets = ["frame=16", &format!("method={method}"), &format!("samples={samples}")];
-        let (rays, smear) = seen(file.to_str().unwrap(), "192x120", &sets);
+        let (rays, smear) = seen(file.to_str().unwrap(), size, &sets);
         let (mut largest, mut sum, mut partly) = (0f64, 0.0, 0);
         for (at, (&ray, &seen)) in rays.iter().zip(&smear).enumerate() {
             let [least, most] = [inner, BALL].map(|radius| met(ray, open, close - open, radius));
@@ -91,7 +102,7 @@ fn the_smear_of_a_ball_is_its_closed_form() {
         held[format!("{method}-error")] = json!(error);
         held[format!("{method}-largest")] = json!(largest);
     }
-    expected::hold("23_motion_blur/ball", held);
+    held
 }
 
 /// Half the angle from one unit quaternion to the mix of two that are `half` apart.

@@ -35,6 +35,7 @@ pub fn for_build(gpu: &Gpu, bounds: &[Bounds], ordering: bool) -> Vec<u32> {
 /// everywhere. Primitives that are not finite sort last. O(n log n).
 pub fn kd_median(bounds: &[Bounds]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
+    let centres = [0, 1, 2].map(|axis| bounds.iter().map(|bounds| centre(bounds, axis)).collect());
     let mut parts = vec![order.as_mut_slice()];
     while let Some(part) = parts.pop() {
         if part.len() <= 2 {
@@ -43,7 +44,7 @@ pub fn kd_median(bounds: &[Bounds]) -> Vec<u32> {
         let left = part.len().div_ceil(2);
         let mut best = (f32::INFINITY, Key::Index);
         for key in [Key::Index, Key::Axis(0), Key::Axis(1), Key::Axis(2)] {
-            split(part, left, key, bounds);
+            split(part, left, key, &centres);
             let (low, high) = part.split_at(left);
             let cost =
                 area(low, bounds) * low.len() as f32 + area(high, bounds) * high.len() as f32;
@@ -51,7 +52,7 @@ pub fn kd_median(bounds: &[Bounds]) -> Vec<u32> {
                 best = (cost, key);
             }
         }
-        split(part, left, best.1, bounds);
+        split(part, left, best.1, &centres);
         let (low, high) = part.split_at_mut(left);
         parts.push(low);
         parts.push(high);
@@ -66,17 +67,20 @@ enum Key {
     Axis(usize),
 }
 
-fn split(part: &mut [u32], left: usize, key: Key, bounds: &[Bounds]) {
+/// The middle of a box along an axis, as a number that sorts like [`f32::total_cmp`].
+fn centre((low, high): &Bounds, axis: usize) -> i32 {
+    // Halved before adding: the sum of two finite corners may overflow.
+    let bits = (low[axis] * 0.5 + high[axis] * 0.5).to_bits() as i32;
+    // Of negative floats the larger bits are the smaller number.
+    bits ^ (((bits >> 31) as u32) >> 1) as i32
+}
+
+fn split(part: &mut [u32], left: usize, key: Key, centres: &[Vec<i32>; 3]) {
     match key {
         Key::Index => part.select_nth_unstable(left),
-        Key::Axis(axis) => part.select_nth_unstable_by(left, |&a, &b| {
-            // Halved before adding: the sum of two finite corners may overflow.
-            let centre = |i: u32| {
-                let (low, high) = bounds[i as usize];
-                low[axis] * 0.5 + high[axis] * 0.5
-            };
-            centre(a).total_cmp(&centre(b)).then(a.cmp(&b))
-        }),
+        Key::Axis(axis) => {
+            part.select_nth_unstable_by_key(left, |&i| (centres[axis][i as usize], i))
+        }
     };
 }
 
