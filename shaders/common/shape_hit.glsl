@@ -6,4 +6,4 @@
 struct ShapeHit {
     Hit hit;
     uint kind;        // a triangle, KIND_SPHERE or KIND_BOX: gl_HitKindEXT
-};                    // 84 bytes
+};                    // 72 bytes
