@@ -1,15 +1,21 @@
 //! The hard cases: every top rung is right on all of them, and the simplest rungs fail.
 
+use std::sync::LazyLock;
+
 use run::expected;
 use serde_json::{Value, json};
 
 use crate::cases;
 use crate::tables::{Table, ladders, text};
 
+const FILE: &str = "tests/data/hard_cases.json";
+/// The laboratory's report of all hard cases.
+static REPORT: LazyLock<Value> = LazyLock::new(|| cases(FILE));
+
 #[test]
 fn every_top_rung_is_right_on_every_hard_case() {
-    let report = cases("tests/data/hard_cases.json");
-    hold(&report);
+    let report = &*REPORT;
+    hold(report);
     assert_eq!((&report["cases"], &report["skipped"]), (&114.into(), &0.into()));
     let rungs = report["rungs"].as_array().unwrap();
     // 43 rungs: the device's triangles have no direct way, the sums no traced one.
@@ -87,8 +93,7 @@ fn traced(report: &Value) -> Table {
 /// The case that the page follows by hand: an eye 1 above a sphere of a million.
 #[test]
 fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
-    let file = "tests/data/hard_cases.json";
-    let text = std::fs::read_to_string(run::root().join(file)).expect("the cases");
+    let text = std::fs::read_to_string(run::root().join(FILE)).expect("the cases");
     let all: Value = serde_json::from_str(&text).expect("JSON");
     let case = all["cases"].as_array().unwrap().iter().find(|case| case["id"] == CASE).unwrap();
     let number = |of: &Value| of.as_f64().unwrap();
@@ -103,7 +108,7 @@ fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
     let found = json!({ "exact": exact, "step": step, "rounded": rounded, "off": off });
     expected::hold_exact("24_accuracy/by_hand", found);
 
-    let report = cases(file);
+    let report = &*REPORT;
     let answers = report["answers"].as_array().unwrap();
     let answer = |rung: &str| {
         let is_it = |answer: &&Value| {

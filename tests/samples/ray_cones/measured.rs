@@ -30,15 +30,15 @@ fn changes(frames: &[Vec<f64>]) -> Vec<f64> {
     pairs.flat_map(|pair| pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a)).collect()
 }
 
-/// The frames of a move.
-fn frames(distance: f64, angle: f64, sets: &[&str]) -> Vec<Vec<f64>> {
+/// The first frames of a move.
+fn frames(count: usize, distance: f64, angle: f64, sets: &[&str]) -> Vec<Vec<f64>> {
     let at = |frame| colors(&seen(&view(distance, angle, STEP * frame as f64), sets));
-    (0..FRAMES).map(at).collect()
+    (0..count).map(at).collect()
 }
 
 /// The error and the flicker of a footprint.
 fn judged(distance: f64, angle: f64, footprint: &str, truth: &[Vec<f64>]) -> [f64; 2] {
-    let found = frames(distance, angle, &[&format!("footprint={footprint}")]);
+    let found = frames(truth.len(), distance, angle, &[&format!("footprint={footprint}")]);
     [error(&found.concat(), &truth.concat()), error(&changes(&found), &changes(truth))]
 }
 
@@ -48,7 +48,7 @@ fn place(distance: f64, angle: f64) -> String {
 
 #[test]
 fn an_ellipse_is_nearest_and_a_point_flickers() {
-    let truth = frames(80.0, 10.0, &["footprint=point", "rays=16"]);
+    let truth = frames(2, 80.0, 10.0, &["footprint=point", "rays=16"]);
     let found = FOOTPRINTS.map(|footprint| judged(80.0, 10.0, footprint, &truth));
     println!("{found:.4?}");
     let [point, cone, ellipse, differentials] = found;
@@ -64,7 +64,7 @@ fn error_and_flicker_by_distance_and_angle() {
     for distance in DISTANCES {
         for angle in ANGLES {
             let place = place(distance, angle);
-            let truth = frames(distance, angle, &TRUTH);
+            let truth = frames(FRAMES, distance, angle, &TRUTH);
             let again = seen(&view(distance, angle, 0.0), &["footprint=point", "rays=31"]);
             truth_is_off = truth_is_off.max(error(&truth[0], &colors(&again)));
             let found = FOOTPRINTS.map(|footprint| judged(distance, angle, footprint, &truth));

@@ -55,7 +55,7 @@ fn fog_is_counted_on_the_way_outside_only() {
             }
             // Where fog is everywhere, it does not matter where a ray is: one view is enough.
             if view == views[0] {
-                for [way, _, t, _] in show(&["hollow=on"]).pixels {
+                for &[way, _, t, _] in &show(&["hollow=on"]).pixels {
                     assert_eq!(way, if t < 0.0 { 1e30 } else { t }, "{name}");
                 }
             }

@@ -1,5 +1,7 @@
 //! Solids without pieces, and the rays that look at them.
 
+use std::sync::Arc;
+
 use common::app::Picture;
 use common::scene::Camera;
 use glam::DVec3;
@@ -14,15 +16,15 @@ pub struct Stub;
 
 impl Stub {
     /// One solid.
-    pub fn seen(&self, (eye, target): View, name: &str, sets: &[&str]) -> Picture {
+    pub fn seen(&self, (eye, target): View, name: &str, sets: &[&str]) -> Arc<Picture> {
         let one = Chapter::new(NAME).size(SIZE).sets(&["preset=one solid"]).set("solid", name);
         let seen = one.set("camera eye", text(eye)).set("camera target", text(target));
-        seen.sets(sets).picture()
+        seen.sets(sets).shared_picture()
     }
 
     /// Hits of rays with it: instance, face, t, and whether the ray was inside; -1 for a miss.
     pub fn hits(&self, view: View, name: &str, sets: &[&str]) -> Picture {
-        let mut hits = self.seen(view, name, &[sets, &["show=hit"]].concat());
+        let mut hits = (*self.seen(view, name, &[sets, &["show=hit"]].concat())).clone();
         with_kinds(&mut hits, &self.seen(view, name, &[sets, &["show=hit kind"]].concat()));
         hits
     }
