@@ -5,8 +5,8 @@ use glam::DVec3;
 use reference::sphere::Sphere;
 
 use super::{Octahedron, PLANE, chapter, level};
-use run::primary_hits::rays;
 use run::bits;
+use run::primary_hits::rays;
 
 #[test]
 fn inside_and_outside_are_told_apart() {
