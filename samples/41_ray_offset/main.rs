@@ -1,7 +1,7 @@
 //! 41 · Ray offset: a shadow ray's origin, from a bound on all rounding errors.
 //!
-//! New since 05_shadow_miss: the offset is computed for each hit, and no constant is left. The scene can be
-//! made larger or smaller and moved away, where a constant fails.
+//! New since 05_shadow_miss: the offset is computed for each hit; the constant stays as a choice, to compare. The
+//! scene can be made larger or smaller and moved away, where a constant fails.
 
 use std::process::ExitCode;
 
