@@ -48,7 +48,8 @@ pub fn read(project: &Project, entries: &[Entry]) -> Result<Vec<Moved>> {
             let (page, id) = place.split_once('#').map_or((&*place, None), |(p, id)| (p, Some(id)));
             let page = page.strip_suffix(".md");
             let page = page.ok_or_else(|| fault(format!("'{place}' is no place of a page")))?;
-            anyhow::Ok((page.to_owned(), id.map_or(String::new(), |id| format!("#{id}"))))
+            // A page's name on the site has no folder.
+            anyhow::Ok((page.replace('/', "-"), id.map_or(String::new(), |id| format!("#{id}"))))
         });
         let ((from, gone), (to, id)) = (old?, new?);
         if !entries.iter().any(|entry| entry.name == to) {

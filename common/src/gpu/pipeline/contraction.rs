@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn every_instruction_is_decorated_once_and_nothing_else_changes() {
-        let before = shader::compile("05_shadow_miss/shade.rchit").unwrap().spirv;
+        let before = shader::compile("41_ray_offset/shade.rchit").unwrap().spirv;
         let after = without(&before).unwrap();
         let load = |words: &[u32]| rspirv::dr::load_words(words).unwrap();
         let (old, new) = (load(&before), load(&after));
