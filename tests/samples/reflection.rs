@@ -143,12 +143,8 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     let scene = Scene::chess_of_metal().unwrap();
     let exact = reference(&scene);
     // A mirrored ray starts where the shadow ray of the same hit does.
-    let show = |sets: &[&str]| {
-        chapter("240x150")
-            .sets(&["minimum contribution=0"])
-            .sets(sets)
-            .picture()
-    };
+    let show =
+        |sets: &[&str]| chapter("240x150").sets(&["minimum contribution=0"]).sets(sets).picture();
     let [hits, starts] = ["show=hit", "show=shadow origin"].map(|view| show(&[view]).pixels);
     let directions = show(&["show=ray direction"]);
     let [on, found] =

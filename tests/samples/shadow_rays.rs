@@ -8,8 +8,8 @@ use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::scene::Scene as Exact;
 
-use run::primary_hits::{answer, rays, reference};
 use run::Chapter;
+use run::primary_hits::{answer, rays, reference};
 
 const SIZE: &str = "240x150";
 
@@ -114,9 +114,7 @@ pub fn hold_answers(name: &str, shadow: Shadow) -> Answers {
         }
     }
     let all = surfaces.len();
-    println!(
-        "{name}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away"
-    );
+    println!("{name}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away");
     assert!(lit > all / 4 && lit < all * 9 / 10, "{lit} of {all}");
     // Most of those start beside an edge that the own triangle shares with one in the same plane.
     assert!(edges * 100 < all, "{edges} of {all}");
