@@ -3,14 +3,15 @@
 use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, ExitStatus, Output, Stdio};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
+use std::{fs, thread};
 
 /// The result of a run, and its costs.
 pub struct Spent {
     /// Its standard error, and its exit status.
     pub output: Output,
-    /// Its largest resident set, in bytes. A process begins with that of the one that started it, so that must
-    /// be small.
+    /// Its largest resident set, in bytes.
     pub memory: u64,
     /// Time that processors worked for it. Other programs do not change that much.
     pub time: Duration,
@@ -24,7 +25,12 @@ pub fn spend(command: &mut Command) -> Spent {
     let mut child = command.spawn().expect("the program starts");
     let mut stderr = Vec::new();
     let errors = child.stderr.as_mut().expect("it is piped");
+    let (ended, end) = mpsc::channel();
+    let id = child.id();
+    let memory = thread::spawn(move || largest(id, &end));
     errors.read_to_end(&mut stderr).expect("a pipe can be read");
+    drop(ended);
+    let memory = memory.join().expect("no panic");
     let mut status = 0;
     // SAFETY: all zeros is a value of this structure of numbers.
     let mut usage: libc::rusage = unsafe { std::mem::zeroed() };
@@ -37,7 +43,23 @@ pub fn spend(command: &mut Command) -> Spent {
     };
     Spent {
         output: Output { status, stdout: Vec::new(), stderr },
-        memory: (usage.ru_maxrss as u64) << 10,
+        memory,
         time: time(usage.ru_utime) + time(usage.ru_stime),
+    }
+}
+
+/// The largest resident set of a process, in bytes, asked for each millisecond until the other end is dropped. `wait4`
+/// knows one, too, but that begins with the largest of the process that started it.
+fn largest(process: u32, end: &mpsc::Receiver<()>) -> u64 {
+    let mut most = 0;
+    loop {
+        // The kernel's own maximum: what lies between two looks is not lost.
+        let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse().ok());
+        most = most.max(kilobytes.unwrap_or(0u64));
+        if end.recv_timeout(Duration::from_millis(1)) == Err(RecvTimeoutError::Disconnected) {
+            return most << 10;
+        }
     }
 }
