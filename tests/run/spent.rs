@@ -24,10 +24,10 @@ pub fn spend(command: &mut Command) -> Spent {
     #[allow(clippy::zombie_processes)]
     let mut child = command.spawn().expect("the program starts");
     let mut stderr = Vec::new();
-    let errors = child.stderr.as_mut().expect("it is piped");
     let (ended, end) = mpsc::channel();
     let id = child.id();
     let memory = thread::spawn(move || largest(id, &end));
+    let errors = child.stderr.as_mut().expect("it is piped");
     errors.read_to_end(&mut stderr).expect("a pipe can be read");
     drop(ended);
     let memory = memory.join().expect("no panic");
