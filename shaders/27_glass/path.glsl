@@ -59,7 +59,7 @@ void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
     // ANCHOR: choice
     // Near an outline the ray may come from behind the smooth normal; it never does so from behind the face.
     vec3 normal = dot(ray.direction, hit.normal) < 0.0 ? hit.normal : hit.face;
-    Split split = Split(0.0, 1.0);
+    Split split = Split(vec2(0.0), vec2(1.0));
     if (is_real) {
         split = fresnel_exact(min(dot(-ray.direction, normal), 1.0), from, to);
     }
@@ -68,7 +68,7 @@ void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
     }
     float chance = SHOW == SHOW_PICTURE ? numbers(path, DIMENSION_CHOICE).x : 0.9999999;
     float side = 1.0;
-    if (chance < split.reflected) {
+    if (chance < unpolarised(split.reflected)) {
         ray.direction = mirrored(ray.direction, normal, hit.face);
     } else {
         if (glass.kind == GLASS_THIN) {
