@@ -120,13 +120,14 @@ void advance(inout Path path, inout Ray ray, BodyHit seen) {
     bool asks = path.media.x == AIR;
     if (asks) {
         RayOrigin start = shadow_start(hit);
-        float visible = visible_part(push.world.light, start, numbers(path, DIMENSION_LIGHT));
-        vec3 to_light = towards_light(push.world.light.light, start.origin);
+        vec2 point = disk_point(0, 1, numbers(path, DIMENSION_LIGHT));
+        vec3 to_light = towards_disk(push.world.light, start.origin, point);
+        float visible = visibility(start, to_light, light_end(push.world.light.light));
         hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
         MaterialRecord lit = material;
         // A mirror meets the light by chance: its image is the highlight.
         lit.specular *= polished ? 0.0 : kept_of_highlight(material.shininess);
-        vec3 arriving = visible * arriving_light(push.world.light.light, start.origin);
+        vec3 arriving = visible * arriving_from(push.world.light, start.origin, to_light);
         gather(path, lit_by(arriving, to_light, hit, lit, -ray.direction));
     }
     // ANCHOR_END: light
