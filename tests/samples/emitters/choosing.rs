@@ -15,9 +15,8 @@ fn mis_wins_where_a_lamp_touches_what_it_lights() {
     let expected = form_factors(32, &SQUARES[1].1);
     let [bsdf, light, mis] = ESTIMATORS.map(|name| {
         let sets = ["scene=perpendicular squares", "depth=1", &estimator(name)];
-        let of = |show, frames| {
-            chapter("32x32").frames(frames).sets(&sets).set("show", show).picture()
-        };
+        let of =
+            |show, frames| chapter("32x32").frames(frames).sets(&sets).set("show", show).picture();
         let error = relative(&brightness(&of("picture", 64)), &expected);
         let rays = rays(&of("rays", 4));
         println!("{name}: off by {error:.4}, {rays:.1} rays a path");

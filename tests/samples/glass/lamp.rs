@@ -71,7 +71,9 @@ fn shadow_rays_and_other_rays_count_the_same_lamp() {
     for (pixels, (distance, tilt)) in answers.pixels.chunks(ROWS * 64).zip(CASES) {
         let exact = of_disk(distance, tilt);
         // A ray that may go anywhere above the surface meets a lamp of 6 radii once in forty times.
-        for (way, (name, most)) in [("by shadow rays", 0.003), ("by other rays", 0.06)].into_iter().enumerate() {
+        for (way, (name, most)) in
+            [("by shadow rays", 0.003), ("by other rays", 0.06)].into_iter().enumerate()
+        {
             let values = || pixels.iter().map(|pixel| f64::from(pixel[way]) / exact);
             let count = pixels.len() as f64;
             let mean = values().sum::<f64>() / count;
@@ -89,7 +91,8 @@ fn a_floor_is_as_bright_without_shadow_rays() {
     let folder = tempfile::tempdir().unwrap();
     let mtl = "newmtl floor\nKd 0.5 0.5 0.5\nillum 1\n";
     std::fs::write(folder.path().join("a.mtl"), mtl).unwrap();
-    let obj = "mtllib a.mtl\no floor\nusemtl floor\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n";
+    let obj =
+        "mtllib a.mtl\no floor\nusemtl floor\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n";
     let file = folder.path().join("a.obj");
     std::fs::write(&file, obj).unwrap();
     // The lamp is behind the camera, a radius and a half above the floor.

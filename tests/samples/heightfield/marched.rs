@@ -77,7 +77,12 @@ pub struct March {
 pub struct Marched(pub Vec<March>);
 
 impl Marched {
-    pub fn new(alone: &Alone, size: &str, sets: &[&str], landscape: Landscape) -> [Self; RUNGS.len()] {
+    pub fn new(
+        alone: &Alone,
+        size: &str,
+        sets: &[&str],
+        landscape: Landscape,
+    ) -> [Self; RUNGS.len()] {
         let rays = alone.rays(size, sets);
         let exact = Exact::new(landscape, rays[0].origin);
         let truth: Vec<_> = rays.iter().map(|ray| exact.hit(ray)).collect();
@@ -138,9 +143,10 @@ impl Marched {
         let seen = |march: &&March| match march.verdict {
             Verdict::Right | Verdict::Grazes => false,
             Verdict::Through | Verdict::FalseHit | Verdict::FalseMiss => true,
-            Verdict::TooNear | Verdict::TooFar => {
-                march.found.zip(march.exact).is_some_and(|(t, exact)| (t / exact - 1.0).abs() > 1e-3)
-            }
+            Verdict::TooNear | Verdict::TooFar => march
+                .found
+                .zip(march.exact)
+                .is_some_and(|(t, exact)| (t / exact - 1.0).abs() > 1e-3),
         };
         self.0.iter().filter(seen).count()
     }
@@ -201,8 +207,7 @@ impl Row {
     /// Its figures, each named after the row.
     pub fn values(&self, row: &str) -> impl Iterator<Item = (String, Value)> {
         let Self { steps, right, visible, wrong, errors: [half, most] } = self;
-        let first =
-            [("steps", json!(steps)), ("right", json!(right)), ("visible", json!(visible))];
+        let first = [("steps", json!(steps)), ("right", json!(right)), ("visible", json!(visible))];
         let wrong = wrong.map(|(name, count)| (name, json!(count)));
         let last = [("p50", json!(half)), ("p99", json!(most))];
         let row = row.replace(' ', "-");
