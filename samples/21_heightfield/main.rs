@@ -1,6 +1,6 @@
 //! 21 · Heightfield: a landscape without triangles, marched by an intersection shader inside one box.
 //!
-//! New since 08_intersection: a height for every (x, z), four ways to march a ray to it, pieces that
+//! New since 08_intersection: a height for every (x, z), five ways to march a ray to it, pieces that
 //! stand on the ground, views of steps and errors, and five views of the land.
 
 #[path = "../08_intersection/boxes.rs"]
@@ -50,7 +50,7 @@ common::shader_enum! {
         Steps, Error, March,
     }
     /// The way to march rays.
-    enum Rung: HEIGHTFIELD { Relaxed, Lipschitz, OverRelaxed = "over-relaxed", Bisected }
+    enum Rung: HEIGHTFIELD { Relaxed, Lipschitz, OverRelaxed = "over-relaxed", Bisected, Secant }
 }
 
 /// Specialization constants of a pipeline's shaders.

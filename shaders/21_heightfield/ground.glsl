@@ -18,7 +18,7 @@ HeightfieldHit meet_ground(uint rung, vec3 o, vec3 d, float tmin, float tmax) {
     if (within.x > within.y) {
         return HeightfieldHit(false, 0.0, 0);
     }
-    float unit = rung <= HEIGHTFIELD_LIPSCHITZ ? length(d) : 1.0;
+    float unit = rung <= HEIGHTFIELD_LIPSCHITZ || rung == HEIGHTFIELD_SECANT ? length(d) : 1.0;
     HeightfieldHit hit = heightfield_by(
         rung, push.ground.shape, o, d / unit, within.x * unit, within.y * unit);
     hit.t /= unit;

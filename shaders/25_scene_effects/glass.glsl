@@ -32,14 +32,14 @@ bool pass(inout Path path, inout Ray ray, Hit hit) {
     float to = inner == AIR ? 1.0 : push.world.glasses.at[inner].index;
     // Near an outline the ray may come from behind the smooth normal; it never does so from behind the face.
     vec3 normal = dot(ray.direction, hit.normal) < 0.0 ? hit.normal : hit.face;
-    Split split = Split(0.0, 1.0);
+    Split split = Split(vec2(0.0), vec2(1.0));
     if (is_real) {
         split = fresnel_exact(min(dot(-ray.direction, normal), 1.0), from, to);
     }
     if (glass.kind == GLASS_THIN) {
         split = of_sheet(split);
     }
-    if (numbers(path, DIMENSION_CHOICE).x < split.reflected) {
+    if (numbers(path, DIMENSION_CHOICE).x < unpolarised(split.reflected)) {
         ray.direction = mirrored(ray.direction, normal, hit.face);
 #ifdef CURVES
         ray.spread += 2.0 * hit.curvature * ray.width;

@@ -59,7 +59,7 @@ void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
     // ANCHOR: choice
     // Near an outline the ray may come from behind the smooth normal; it never does so from behind the face.
     vec3 normal = dot(ray.direction, hit.normal) < 0.0 ? hit.normal : hit.face;
-    Split split = Split(0.0, 1.0);
+    Split split = Split(vec2(0.0), vec2(1.0));
     if (is_real) {
         split = fresnel_exact(min(dot(-ray.direction, normal), 1.0), from, to);
     }
@@ -68,7 +68,7 @@ void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
     }
     float chance = SHOW == SHOW_PICTURE ? numbers(path, DIMENSION_CHOICE).x : 0.9999999;
     float side = 1.0;
-    if (chance < split.reflected) {
+    if (chance < unpolarised(split.reflected)) {
         ray.direction = mirrored(ray.direction, normal, hit.face);
     } else {
         if (glass.kind == GLASS_THIN) {
@@ -120,13 +120,14 @@ void advance(inout Path path, inout Ray ray, BodyHit seen) {
     bool asks = path.media.x == AIR;
     if (asks) {
         RayOrigin start = shadow_start(hit);
-        float visible = visible_part(push.world.light, start, numbers(path, DIMENSION_LIGHT));
-        vec3 to_light = towards_light(push.world.light.light, start.origin);
+        vec2 point = disk_point(0, 1, numbers(path, DIMENSION_LIGHT));
+        vec3 to_light = towards_disk(push.world.light, start.origin, point);
+        float visible = visibility(start, to_light, light_end(push.world.light.light));
         hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
         MaterialRecord lit = material;
         // A mirror meets the light by chance: its image is the highlight.
         lit.specular *= polished ? 0.0 : kept_of_highlight(material.shininess);
-        vec3 arriving = visible * arriving_light(push.world.light.light, start.origin);
+        vec3 arriving = visible * arriving_from(push.world.light, start.origin, to_light);
         gather(path, lit_by(arriving, to_light, hit, lit, -ray.direction));
     }
     // ANCHOR_END: light

@@ -22,7 +22,7 @@ Ray through_lens(CameraBasis camera, Lens lens, vec2 point, uvec2 size, vec2 u) 
     vec2 screen = 2.0 * point / vec2(size) - 1.0;
     // To the point in focus, with the distance of its plane as the unit.
     vec3 to_focus = camera.forward + screen.x * camera.right - screen.y * camera.up;
-    vec2 unit = lens.blades < 3 ? disk_point(u) : polygon_point(lens.blades, lens.turn, u);
+    vec2 unit = lens.blades < 3 ? concentric_point(u) : polygon_point(lens.blades, lens.turn, u);
     vec2 place = lens.radius * unit;
     vec3 offset = place.x * normalize(camera.right) + place.y * normalize(camera.up);
     precise vec3 origin = camera.origin + offset;

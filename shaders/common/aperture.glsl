@@ -4,7 +4,7 @@
 
 // A square becomes a disk, ring by ring: what is uniform stays uniform, and neighbours stay neighbours
 // (Shirley and Chiu 1997).
-vec2 disk_point(vec2 u) {
+vec2 concentric_point(vec2 u) {
     vec2 place = 2.0 * u - 1.0;
     bool is_wide = abs(place.x) > abs(place.y);
     float radius = is_wide ? place.x : place.y;

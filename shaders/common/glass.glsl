@@ -19,14 +19,20 @@ vec3 left_after(vec3 absorption) {
     return mix(exp(-absorption), vec3(1.0), equal(absorption, vec3(0.0)));
 }
 
-// What part of the light a surface reflects, and what part goes through.
+// What part of the light a surface reflects, and what part goes through: x of the light that swings across
+// the plane of ray and normal, y of that which swings within it.
 struct Split {
-    float reflected;
-    float through;
+    vec2 reflected;
+    vec2 through;
 };
 
-// Fresnel's equations, for light that is not polarised, from a medium of index `from` into one of index
-// `to`; `cosine` is the ray's to the normal.
+// The part of light that is not polarised: half of it swings either way.
+float unpolarised(vec2 part) {
+    return 0.5 * (part.x + part.y);
+}
+
+// Fresnel's equations, from a medium of index `from` into one of index `to`; `cosine` is the ray's to the
+// normal.
 //
 // q and p are index·cosine before and behind the surface, k2 is (index·sine)^2: by Snell's law the same on
 // both sides. So p^2 - q^2 = to^2 - from^2, and the difference that Fresnel's equations have, q - p, is a
@@ -36,23 +42,24 @@ Split fresnel_exact(float cosine, float from, float to) {
     float squares = (to - from) * (to + from);
     float p2 = squares + q * q;
     if (p2 <= 0.0) {
-        return Split(1.0, 0.0);    // total reflection
+        return Split(vec2(1.0), vec2(0.0));    // total reflection
     }
     float p = sqrt(p2);
     float k2 = from * from * (1.0 - cosine) * (1.0 + cosine);
     float sum = q + p;
-    float across = squares / (sum * sum);              // the amplitude that swings across the plane of incidence
-    float within = (q * p - k2) / (q * p + k2);        // and, relative to it, that which swings within the plane
+    float across = squares / (sum * sum);              // the amplitude that swings across the plane
+    float within = (q * p - k2) / (q * p + k2);        // and, relative to it, that which swings within it
     float relative = from * to / (q * p + k2);
     return Split(
-        0.5 * across * across * (1.0 + within * within),
-        2.0 * q * p / (sum * sum) * (1.0 + relative * relative)
+        across * across * vec2(1.0, within * within),
+        4.0 * q * p / (sum * sum) * vec2(1.0, relative * relative)
     );
 }
 
-// Between the two sides of a sheet light goes to and fro: R + T²R + T²R³ + … = 2R / (1 + R) comes back.
+// Between the two sides of a sheet light goes to and fro: R + T²R + T²R³ + … = 2R / (1 + R) comes back. Each
+// polarisation has a series of its own: the mean of R in place of both reflects up to 8 % too much.
 Split of_sheet(Split side) {
-    float all = 1.0 + side.reflected;
+    vec2 all = 1.0 + side.reflected;
     return Split(2.0 * side.reflected / all, side.through / all);
 }
 

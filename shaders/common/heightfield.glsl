@@ -1,6 +1,6 @@
 // Taught by 21_heightfield.
 //
-// A ray against a landscape, y = H(x, z): four ways of marching.
+// A ray against a landscape, y = H(x, z): five ways of marching.
 //
 // There is no formula for the hit. A march asks how high the ray is above the ground, and steps ahead by
 // as much as that seems to allow. `steps` counts the questions: they are what a march costs.
@@ -9,6 +9,7 @@ const uint HEIGHTFIELD_RELAXED = 0;
 const uint HEIGHTFIELD_LIPSCHITZ = 1;
 const uint HEIGHTFIELD_OVER_RELAXED = 2;
 const uint HEIGHTFIELD_BISECTED = 3;
+const uint HEIGHTFIELD_SECANT = 4;
 
 // A march of more steps has lost its way.
 const uint MARCH_LIMIT = 10000;
@@ -84,6 +85,29 @@ HeightfieldHit heightfield_relaxed(HeightfieldShape shape, vec3 o, vec3 d, float
         if (abs(above) < 0.0015 * t || t > tmax) {
             break;
         }
+        t += 0.4 * above;
+    }
+    return HeightfieldHit(t > tmin && t < tmax, t, steps);
+}
+
+// The same march, and at its end one step to where a straight line through the last two heights meets the
+// ground (the secant's): as terrain is usually marched. The height that is left shrinks, and what went through
+// or was invented stays so.
+HeightfieldHit heightfield_secant(HeightfieldShape shape, vec3 o, vec3 d, float tmin, float tmax) {
+    float t = tmin;
+    vec2 last = vec2(tmin, 0.0);    // the step before: its t and its height
+    uint steps = 0;
+    for (; steps < 300; steps++) {
+        float above = height_above(shape, o, d, t);
+        if (t > tmax) {
+            break;
+        }
+        if (abs(above) < 0.0015 * t) {
+            float slope = (above - last.y) / (t - last.x);
+            t -= steps > 0 && slope < 0.0 ? above / slope : 0.0;
+            break;
+        }
+        last = vec2(t, above);
         t += 0.4 * above;
     }
     return HeightfieldHit(t > tmin && t < tmax, t, steps);
@@ -232,6 +256,7 @@ HeightfieldHit heightfield_by(
     switch (rung) {
         case HEIGHTFIELD_RELAXED: return heightfield_relaxed(shape, o, d, tmin, tmax);
         case HEIGHTFIELD_LIPSCHITZ: return heightfield_lipschitz(shape, o, d, tmin, tmax);
+        case HEIGHTFIELD_SECANT: return heightfield_secant(shape, o, d, tmin, tmax);
         case HEIGHTFIELD_OVER_RELAXED: return heightfield_over_relaxed(shape, o, d, tmin, tmax);
         default: return heightfield_bisected(shape, o, d, tmin, tmax);
     }

@@ -1,6 +1,7 @@
 //! 29_emitters: three ways to find the light of what shines agree with each other, and with closed forms.
 
 mod caught;
+mod choosing;
 mod closed_forms;
 mod directions;
 mod plots;

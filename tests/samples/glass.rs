@@ -3,6 +3,7 @@
 
 mod closed_forms;
 pub mod equations;
+mod lamp;
 
 use common::app::Picture;
 use serde_json::{Map, Value, json};

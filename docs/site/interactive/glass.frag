@@ -52,8 +52,8 @@ void main() {
     uint n = uint(gl_FragCoord.y) * side + uint(gl_FragCoord.x);
     if (chart == 1u) {
         float cosine = cos(1.5707963 * float(n) / float(side * side - 1u));
-        answer = floatBitsToUint(vec4(fresnel_exact(cosine, 1.0, index).reflected,
-            fresnel_exact(cosine, index, 1.0).reflected, 0.0, 0.0));
+        answer = floatBitsToUint(vec4(unpolarised(fresnel_exact(cosine, 1.0, index).reflected),
+            unpolarised(fresnel_exact(cosine, index, 1.0).reflected), 0.0, 0.0));
         return;
     }
     int level = 0;
@@ -75,7 +75,7 @@ void main() {
         Split split = fresnel_exact(min(-dot(d, normal), 1.0), from, to);
         origin += t * d;
         bool through = ((n >> (level - 1)) & 1u) == 1u;
-        light *= through ? split.through : split.reflected;
+        light *= unpolarised(through ? split.through : split.reflected);
         d = through ? refracted(vec3(d, 0.0), vec3(normal, 0.0), from, to).xy : reflect(d, normal);
         inside = inside != through;
     }

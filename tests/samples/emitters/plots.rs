@@ -27,7 +27,7 @@ fn estimators() {
 }
 
 /// The rays of a path, in the mean: a sixteenth of white each.
-fn rays(picture: &Picture) -> f64 {
+pub fn rays(picture: &Picture) -> f64 {
     16.0 * Estimate::of(&brightness(picture)).mean
 }
 
@@ -38,7 +38,7 @@ const FRAMES: [u32; 5] = [1, 4, 16, 64, 256];
 const ERRORS: &[f64] = &[0.0001, 0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0];
 
 /// The root of the mean squared error over that of what is expected.
-fn relative(shown: &[f64], expected: &[f64]) -> f64 {
+pub fn relative(shown: &[f64], expected: &[f64]) -> f64 {
     let squares: f64 = shown.iter().zip(expected).map(|(s, e)| (s - e).powi(2)).sum();
     (squares / expected.iter().map(|e| e * e).sum::<f64>()).sqrt()
 }

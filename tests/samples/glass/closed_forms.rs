@@ -199,8 +199,9 @@ fn a_pane_shows_the_sky_behind_it_and_mirrors_the_sky_above() {
         let within = (1.0 - (1.0 - cosine * cosine) / (INDEX * INDEX)).sqrt();
         let across = (cosine - INDEX * within) / (cosine + INDEX * within);
         let along = (INDEX * cosine - within) / (INDEX * cosine + within);
-        let one = 0.5 * (across * across + along * along);
-        let part = 2.0 * one / (1.0 + one);
+        // Each polarisation goes to and fro between the sides by itself.
+        let sheet = |one: f64| 2.0 * one / (1.0 + one);
+        let part = 0.5 * (sheet(across * across) + sheet(along * along));
         let (behind, above) = (sky(ray), sky(ray + 2.0 * cosine * normal));
         let value = pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
         off += value - (behind + part * (above - behind));

@@ -15,7 +15,7 @@ use super::judged::{Exact, Verdict};
 use super::scenes::{Preset, PresetName};
 use run::primary_hits::rays;
 
-pub const RUNGS: [&str; 4] = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
+pub const RUNGS: [&str; 5] = ["relaxed", "secant", "lipschitz", "over-relaxed", "bisected"];
 
 /// Two triangles, much smaller than they are far apart: no ray here meets them, so that the ground is alone. They load
 /// faster than the pieces.
@@ -77,7 +77,12 @@ pub struct March {
 pub struct Marched(pub Vec<March>);
 
 impl Marched {
-    pub fn new(alone: &Alone, size: &str, sets: &[&str], landscape: Landscape) -> [Self; 4] {
+    pub fn new(
+        alone: &Alone,
+        size: &str,
+        sets: &[&str],
+        landscape: Landscape,
+    ) -> [Self; RUNGS.len()] {
         let rays = alone.rays(size, sets);
         let exact = Exact::new(landscape, rays[0].origin);
         let truth: Vec<_> = rays.iter().map(|ray| exact.hit(ray)).collect();
@@ -133,6 +138,19 @@ impl Marched {
         steps / f64::max(count, 1.0)
     }
 
+    /// Number of hits that are off by more than a thousandth of t, or should not be, or are missing: errors to be seen.
+    pub fn visible(&self) -> usize {
+        let seen = |march: &&March| match march.verdict {
+            Verdict::Right | Verdict::Grazes => false,
+            Verdict::Through | Verdict::FalseHit | Verdict::FalseMiss => true,
+            Verdict::TooNear | Verdict::TooFar => march
+                .found
+                .zip(march.exact)
+                .is_some_and(|(t, exact)| (t / exact - 1.0).abs() > 1e-3),
+        };
+        self.0.iter().filter(seen).count()
+    }
+
     /// By how much t is off, relative, where there is a hit and the rung has one: the middle one, and one
     /// of a hundred is farther off than the second.
     pub fn errors(&self) -> [f64; 2] {
@@ -149,6 +167,7 @@ impl Marched {
         Row {
             steps: self.steps(),
             right: self.right(),
+            visible: self.visible(),
             wrong: [
                 ("too_near", count(Verdict::TooNear)),
                 ("too_far", count(Verdict::TooFar)),
@@ -171,23 +190,24 @@ impl Marched {
 pub struct Row {
     steps: f64,
     right: usize,
+    visible: usize,
     wrong: [(&'static str, usize); 5],
     errors: [f64; 2],
 }
 
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { steps, right, wrong, errors: [half, most] } = self;
+        let Self { steps, right, visible, wrong, errors: [half, most] } = self;
         let wrong = wrong.map(|(_, count)| count.to_string()).join(" | ");
-        write!(f, "{steps:.1} | {right} | {wrong} | {half:.1e} | {most:.1e}")
+        write!(f, "{steps:.1} | {right} | {visible} | {wrong} | {half:.1e} | {most:.1e}")
     }
 }
 
 impl Row {
     /// Its figures, each named after the row.
     pub fn values(&self, row: &str) -> impl Iterator<Item = (String, Value)> {
-        let Self { steps, right, wrong, errors: [half, most] } = self;
-        let first = [("steps", json!(steps)), ("right", json!(right))];
+        let Self { steps, right, visible, wrong, errors: [half, most] } = self;
+        let first = [("steps", json!(steps)), ("right", json!(right)), ("visible", json!(visible))];
         let wrong = wrong.map(|(name, count)| (name, json!(count)));
         let last = [("p50", json!(half)), ("p99", json!(most))];
         let row = row.replace(' ', "-");
