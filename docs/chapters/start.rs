@@ -83,7 +83,8 @@ impl<'a> Start<'a> {
     pub fn write(&self) -> Result<Vec<String>> {
         let own = |text: &str| text.replace(NAME, &self.name);
         let mut files = vec![
-            (".gitignore".to_owned(), "/target\n".to_owned()),
+            // Its settings name folders of this machine.
+            (".gitignore".to_owned(), "/target\n/.cargo\n".to_owned()),
             ("Cargo.lock".to_owned(), self.project.read("Cargo.lock")?),
             ("Cargo.toml".to_owned(), self.manifest()?),
         ];
