@@ -69,9 +69,11 @@ impl<'a> Start<'a> {
         if absolute.exists() && !absolute.is_dir() {
             return refuse("is no folder; name one that is empty or new");
         }
-        // Cargo marks a folder in which it builds. What comes from a Git repository may be another version.
+        // Cargo keeps records of what it has compiled. What comes from a Git repository may be another version.
         let target = programs.target();
-        let shared = !apart && git.is_none() && target.join("CACHEDIR.TAG").is_file();
+        let shared = !apart
+            && git.is_none()
+            && target.join(programs.profile()).join(".fingerprint").is_dir();
         let shared = shared.then(|| target.canonicalize()).transpose()?;
         Ok(Self { project, folder: absolute, name: name.to_owned(), git, shared })
     }

@@ -322,7 +322,7 @@ impl<'a> Workbench<'a> {
         }
         let mut named = self.exercise.text.split("--size ").skip(1);
         let is_part = |letter: char| letter == 'x' || letter.is_ascii_digit();
-        if let Some(size) = named.next().and_then(|rest| rest.split(|c| !is_part(c)).next()) {
+        if let Some(size) = named.next().and_then(|rest| rest.split(|c: char| !is_part(c)).next()) {
             words.extend(["--size".to_owned(), size.to_owned()]);
         }
         words

@@ -62,7 +62,7 @@ pub fn check_files(project: &Project) -> Vec<Fault> {
 fn within(text: &str) -> Option<&str> {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || ['-', '_'].contains(&c);
     let mut prose = text.split('`').step_by(2);
-    let write = prose.any(|part| part.split(|c| !is_letter(c)).any(|word| word == WRITE));
+    let write = prose.any(|part| part.split(|c: char| !is_letter(c)).any(|word| word == WRITE));
     let words = text.trim_start_matches(['/', '!', ' ', '>', '*', '-']);
     let say = words.get(..SAY.len()).filter(|start| start.eq_ignore_ascii_case(SAY));
     if write { Some(WRITE) } else { say.map(|_| words) }

@@ -5,7 +5,7 @@ use std::fs;
 use crate::paths;
 
 /// At most so many chapters are named.
-const MOST: usize = 3;
+const MOST: usize = 5;
 
 /// The chapters of the book whose page lists a control, in the words of an error: `, which 42_distant_spheres has`.
 /// Empty if there is none, or for a program of another crate.
