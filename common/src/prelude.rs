@@ -1,6 +1,6 @@
 //! The names a program needs: `use raybook::prelude::*;`.
 
-pub use crate::app::{Controls, Frame, Sample, Setup, Variant, Variants};
+pub use crate::app::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 pub use crate::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
     HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable, padded,
@@ -12,4 +12,4 @@ pub use crate::scene::{
 };
 pub use anyhow::Result;
 pub use ash::vk;
-pub use glam::{Affine3A, DVec3, Vec2, Vec3};
+pub use glam::{Affine3A, DVec3, Mat3, Mat4, Quat, UVec2, UVec3, Vec2, Vec3, Vec3A, Vec4};

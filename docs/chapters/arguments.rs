@@ -73,6 +73,10 @@ pub enum Command {
         /// Take the framework from this Git repository instead of from this checkout
         #[arg(long, value_name = "URL")]
         git: Option<String>,
+        /// Compile everything for this crate alone; without it, the crate uses what the book has compiled, and its
+        /// first build takes a minute in place of many
+        #[arg(long)]
+        apart: bool,
     },
     /// Fill in what pages show of the code: snippets, diffs, tables, gallery, contents
     Sync {

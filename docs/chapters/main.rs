@@ -102,8 +102,9 @@ fn run(arguments: &Arguments) -> Result<()> {
             let list: String = files.iter().map(|file| format!("{file}\n")).collect();
             print(&format!("{list}\nNext:\n{}", new.next()))
         }
-        Command::Start { folder, git } => {
-            let start = Start::plan(&project, folder, git.as_deref())?;
+        Command::Start { folder, git, apart } => {
+            let programs = Programs::beside_this(&project)?;
+            let start = Start::plan(&programs, folder, git.as_deref(), *apart)?;
             let list: String = start.write()?.iter().map(|file| format!("{file}\n")).collect();
             print(&format!("{list}\nNext:\n{}", start.next()))
         }

@@ -9,9 +9,13 @@ use common::files::{NewFolder, write_all};
 use manuscript::project::Project;
 
 use crate::programs::own_program::{NAME, TEMPLATE};
+use crate::programs::program::Programs;
 
 /// The lines that make the template a member: a crate of its own has other such files.
 const OF_THE_MEMBER: [&str; 2] = ["Cargo.toml", "tests.rs"];
+
+/// Cargo's settings for a folder and those below it.
+const CONFIG: &str = ".cargo/config.toml";
 
 /// Names that Rust or Cargo keeps, and that of the framework.
 const TAKEN: &str = "abstract alloc as async await become box break build const continue core crate deps do \
@@ -26,14 +30,23 @@ pub struct Start<'a> {
     name: String,
     /// The source of the framework: a Git repository, else this checkout.
     git: Option<&'a str>,
+    /// The folder in which the book is built, if the crate shares what lies there.
+    shared: Option<PathBuf>,
 }
 
 impl<'a> Start<'a> {
-    /// A crate in a folder that is empty or new, with the folder's name.
+    /// A crate in a folder that is empty or new, with the folder's name. Unless it is to be `apart`, it shares what is
+    /// built of this checkout.
     ///
     /// # Errors
     /// If the folder is in use or lies in the project, or its name is none for a crate.
-    pub fn plan(project: &'a Project, folder: &Path, git: Option<&'a str>) -> Result<Self> {
+    pub fn plan(
+        programs: &Programs<'a>,
+        folder: &Path,
+        git: Option<&'a str>,
+        apart: bool,
+    ) -> Result<Self> {
+        let project = programs.project;
         let refuse = |what: &str| Err(UsageError(format!("'{}' {what}", folder.display())).into());
         let absolute = std::path::absolute(folder).context("the current folder is not known")?;
         let above = absolute.ancestors().find_map(|above| above.canonicalize().ok());
@@ -56,7 +69,13 @@ impl<'a> Start<'a> {
         if absolute.exists() && !absolute.is_dir() {
             return refuse("is no folder; name one that is empty or new");
         }
-        Ok(Self { project, folder: absolute, name: name.to_owned(), git })
+        // Cargo keeps records of what it has compiled. What comes from a Git repository may be another version.
+        let target = programs.target();
+        let shared = !apart
+            && git.is_none()
+            && target.join(programs.profile()).join(".fingerprint").is_dir();
+        let shared = shared.then(|| target.canonicalize()).transpose()?;
+        Ok(Self { project, folder: absolute, name: name.to_owned(), git, shared })
     }
 
     /// Writes the crate's files, all or none; returns their paths below its folder.
@@ -66,10 +85,14 @@ impl<'a> Start<'a> {
     pub fn write(&self) -> Result<Vec<String>> {
         let own = |text: &str| text.replace(NAME, &self.name);
         let mut files = vec![
-            (".gitignore".to_owned(), "/target\n".to_owned()),
+            // Its settings name folders of this machine.
+            (".gitignore".to_owned(), "/target\n/.cargo\n".to_owned()),
             ("Cargo.lock".to_owned(), self.project.read("Cargo.lock")?),
             ("Cargo.toml".to_owned(), self.manifest()?),
         ];
+        if let Some(shared) = &self.shared {
+            files.push((CONFIG.to_owned(), self.config(shared)?));
+        }
         for path in self.project.files(TEMPLATE) {
             let below = path.trim_start_matches(TEMPLATE).trim_start_matches('/');
             if !OF_THE_MEMBER.contains(&below) {
@@ -94,9 +117,8 @@ impl<'a> Start<'a> {
         let from = match self.git {
             Some(url) => format!("git = {}", toml::Value::from(url)),
             None => {
-                let path = root(self.project).join("common").display().to_string();
-                // Cargo does not know Windows' longest form of a path.
-                format!("path = {}", toml::Value::from(path.trim_start_matches(r"\\?\")))
+                let path = plain(&root(self.project).join("common"));
+                format!("path = {}", toml::Value::from(path))
             }
         };
         let known = self.packages()?;
@@ -106,7 +128,9 @@ impl<'a> Start<'a> {
             Some((name, _)) => known.contains(name),
             None => true,
         };
-        let profile: Vec<&str> = profile.filter(fits).collect();
+        let mut profile: Vec<&str> = profile.filter(fits).collect();
+        // A comment above the first [[bin]] is about that.
+        while profile.pop_if(|last| last.is_empty() || last.starts_with('#')).is_some() {}
         Ok(format!(
             "[package]\nname = \"{}\"\nversion = \"0.1.0\"\nedition = {}\nrust-version = {}\npublish = false\n\n\
              [dependencies]\nraybook = {{ {from} }}\n\n\
@@ -115,8 +139,31 @@ impl<'a> Start<'a> {
             self.name,
             package["edition"],
             package["rust-version"],
-            profile.join("\n").trim_end()
+            profile.join("\n")
         ))
+    }
+
+    /// Cargo's settings: where it finds what the book has compiled, and the book's own compiler of C++, by which it
+    /// would otherwise compile glslang again.
+    fn config(&self, shared: &Path) -> Result<String> {
+        let path = |path: &Path| toml::Value::from(plain(path)).to_string();
+        let mut text = format!(
+            "# What the book has compiled is used here, too; programs still go to `target`. `cargo clean` empties both\n\
+             # folders. Without this file, everything is compiled again.\n[build]\nbuild-dir = {}\n",
+            path(shared)
+        );
+        let root = root(self.project);
+        let settings: toml::Table = self.project.read(CONFIG).unwrap_or_default().parse()?;
+        let variables = settings.get("env").and_then(toml::Value::as_table).into_iter().flatten();
+        let mut lines = variables.filter_map(|(name, setting)| {
+            let value = setting.get("value")?.as_str()?;
+            Some(format!("{name} = {}\n", path(&root.join(value))))
+        });
+        if let Some(first) = lines.next() {
+            text.push_str(&format!("\n[env]\n{first}"));
+            text.extend(lines);
+        }
+        Ok(text)
     }
 
     /// The packages that the framework is built with, by name.
@@ -144,8 +191,20 @@ impl<'a> Start<'a> {
 
     /// The next steps.
     pub fn next(&self) -> String {
-        format!("cd {}\ncargo run\ncargo test\n", self.folder.display())
+        let shared = match self.shared {
+            Some(_) => format!(
+                "\nIt uses what the book has compiled, so the first build takes a minute in place of many ({CONFIG}). \
+                 With --apart it would compile everything by itself.\n"
+            ),
+            None => String::new(),
+        };
+        format!("cd {}\ncargo run\ncargo test\n{shared}", self.folder.display())
     }
+}
+
+/// A path in words that Cargo knows: of Windows' longest form it knows nothing.
+fn plain(path: &Path) -> String {
+    path.display().to_string().trim_start_matches(r"\\?\").to_owned()
 }
 
 /// The project's folder as the system knows it.

@@ -4,6 +4,9 @@
 //! that replaces them where the reader's scheme is dark. Inside an `<img>` that scheme is the one of the
 //! page around it (Media Queries 5, section 12.5), so the book's own switch works, too.
 
+pub mod map;
+pub mod sheet;
+
 use std::fmt::Write;
 
 /// What an ink is for: this says how far it must stand out.

@@ -8,14 +8,12 @@ mod cones;
 mod floats;
 mod lens;
 mod lights;
-mod map;
 mod march;
 mod micro;
 mod orders;
 mod rays;
 mod shadows;
 mod shapes;
-mod sheet;
 mod shutter;
 mod squares;
 mod structures;
@@ -25,6 +23,8 @@ mod walk;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+use drawings::{map, sheet};
 
 /// A drawing's name, and what draws it.
 type Drawing = (&'static str, fn() -> String);

@@ -32,6 +32,9 @@ const GROUNDS: [&str; 6] = [BLUE, GREEN, YOURS, "#f3d9a8", DEVICE, WHITE];
 const INKS: [&str; 2] = [SEA, LEAF];
 
 /// The chapters of this book.
+///
+/// # Panics
+/// If its manifest cannot be read.
 pub fn chapters() -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     draw(&Project::open(&root).expect("Cargo.toml names the chapters"))
@@ -59,7 +62,11 @@ fn first_line(s: &mut Sheet, project: &Project, way: &Way, width: f64) {
     }
 }
 
-fn draw(project: &Project) -> String {
+/// The map of a project with at least one way through it.
+///
+/// # Panics
+/// If it has none.
+pub fn draw(project: &Project) -> String {
     let tree = project.tree();
     let parts = project.parted();
     let (first_way, ways) = project.ways.split_first().expect("a first way");

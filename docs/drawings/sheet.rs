@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use drawings::themed;
-pub use drawings::{
+use crate::themed;
+pub use crate::{
     BLUE, BROWN, DEVICE, FAINT, GREEN, LEAF, LINE, PAPER, RED, SEA, SOFT, TEXT, WHITE, YOURS,
 };
 

@@ -3,7 +3,7 @@
 use common::Controls;
 use common::scene::Placement;
 use common::scene::board::Board;
-use common::scene::plane::{HalfSpace, Plane};
+use common::scene::plane::{HalfSpace, Plane, PlaneForm};
 use glam::{DVec3, Vec3};
 
 common::shader_enum! {
@@ -37,9 +37,13 @@ impl InfinitePlane {
         c.direction("plane normal", &mut half_space.normal, -1e3..=1e3);
         c.slider("plane distance", &mut half_space.distance, -1e6..=1e6);
         c.vector("plane point", &mut half_space.point, -1e6..=1e6);
+        let by_point = half_space.form == PlaneForm::PointAndNormal;
+        c.needs("plane point", "plane form=point and normal", by_point);
+        c.needs("plane distance", "plane form=normal and distance", !by_point);
         c.checkbox("inverse", &mut half_space.inverse);
         c.choice("inside", inside);
         c.color("inside color", &mut board.inner);
+        c.needs("inside color", "inside=color", *inside == Inside::Color);
         let mut checker = board.checker == 1;
         c.checkbox("checker", &mut checker);
         board.checker = checker.into();

@@ -124,6 +124,9 @@ impl Sample for Demo {
         if c.slider("distance", &mut self.distance, 1e-3..=1e6) {
             self.camera = self.scene_camera();
         }
+        let scene = self.build.scene;
+        c.needs("count", "scene=grid, random ball or dust", scenes::has_count(scene));
+        c.needs("distance", "scene=one sphere", scene == SceneKind::OneSphere);
         c.choice("sphere rung", &mut self.constants.sphere_rung);
         c.choice("box rung", &mut self.constants.box_rung);
         c.checkbox("margin", &mut self.build.margin);

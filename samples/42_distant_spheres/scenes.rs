@@ -16,12 +16,17 @@ common::shader_enum! {
 const DUST_CLOUD: f64 = 0.05;
 const DUST_GRAIN: f32 = 1e-4;
 
-/// Default number of shapes in a scene; it has no effect where the number is fixed.
+/// Default number of shapes in a scene.
 pub fn default_count(scene: SceneKind) -> u32 {
     match scene {
         SceneKind::RandomBall => 1024,
         _ => 10_000,
     }
+}
+
+/// Tests whether a scene has as many shapes as one asks for.
+pub fn has_count(scene: SceneKind) -> bool {
+    matches!(scene, SceneKind::Grid | SceneKind::RandomBall | SceneKind::Dust)
 }
 
 /// A view that shows a scene; `distance` is that of *one sphere*, in radii from its surface.

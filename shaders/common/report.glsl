@@ -22,10 +22,12 @@ Hit report(SceneAddresses scene, vec2 barycentrics) {
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
 
+    // ANCHOR: texture
     hit.color = material.base_color;
     if (material.base_texture >= 0) {
         hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
     }
+    // ANCHOR_END: texture
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;

@@ -56,6 +56,55 @@ fn wrong_markers_and_anchors_are_named_with_file_and_line() {
 }
 
 #[test]
+fn what_is_still_to_be_written_is_named_wherever_it_stands() {
+    let cases: [Case; 6] = [
+        (
+            "an alt text",
+            |f| f.replace("docs/01_one.md", "![The picture]", "![WRITE]"),
+            "docs/01_one.md:3: 'WRITE' holds a place for something",
+            "; write what belongs here",
+        ),
+        (
+            "a box",
+            |f| f.replace("docs/01_one.md", "**Price:** none.", "**Price:** WRITE"),
+            "docs/01_one.md:2: 'WRITE' holds a place for something",
+            "; write what belongs here",
+        ),
+        (
+            "an exercise's hint, which no page shows",
+            |f| f.replace("docs/exercises/02.1.diff", "Hint: White", "Hint: WRITE. White"),
+            "docs/exercises/02.1.diff:6: 'WRITE' holds a place for something",
+            "; write what belongs here",
+        ),
+        (
+            "a test's comment",
+            |f| {
+                let ask = "// Say here which device set the tolerance.\nconst GOLDEN";
+                f.replace("tests/samples/one.rs", "const GOLDEN", ask);
+            },
+            "tests/samples/one.rs:1: 'Say here which device set the tolerance.' holds a place",
+            "; write what belongs here",
+        ),
+        (
+            "the figures of a compiler that was not asked",
+            |f| {
+                let text = r#"{ "Mesa 1": { "03_gone": {} }, "Mesa 2": { "02_basic": {} } }"#;
+                f.write("tests/gpus/budgets.json", text);
+            },
+            "tests/gpus/budgets.json:1: '03_gone' is no chapter any more",
+            "; run: UPDATE=1 cargo test --test gpus",
+        ),
+        (
+            "a chapter of which nothing is recorded",
+            |f| f.write("tests/gpus/budgets.json", r#"{ "Mesa 1": {} }"#),
+            "tests/gpus/budgets.json:1: nothing is recorded of '02_basic'",
+            "; run: UPDATE=1 cargo test --test gpus",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
 fn stray_files_are_named() {
     let cases: [Case; 6] = [
         (

@@ -439,6 +439,86 @@ fn hints_solutions_and_answers_are_given() {
 }
 
 #[test]
+fn an_authors_edits_become_an_exercises_diff() {
+    let fixture = Fixture::new();
+    let file = "docs/exercises/02.4.diff";
+    // From a copy of the shaders.
+    let copy = fixture.path("mine");
+    run::copy(&fixture.path("shaders"), &copy);
+    let folder = copy.to_str().expect("a path").to_owned();
+    let make = |more: &[&str]| fixture.run(&[&["exercise", "02.4", "--make"], more].concat());
+    let outcome = make(&["--folder", &folder]);
+    assert_eq!((outcome.code, &*outcome.out), (1, ""), "{}", outcome.err);
+    assert!(outcome.err.contains("are the book's: make the solution there first"));
+    fixture.replace("mine/02_basic/camera.rgen", "payload);", "0.5 * payload);");
+    fixture.write("mine/02_basic/half.glsl", "// Half.\n");
+    let outcome = make(&["--folder", &folder]);
+    let told = format!("{file}\n\nNext:\ncargo chapters exercise 02.4 --prove\n");
+    assert_eq!((outcome.code, &*outcome.out), (0, &*told), "{}", outcome.err);
+    let text = fixture.read(file);
+    for part in [
+        "WRITE a title\n\nTakes: shader\n",
+        "\n--- shaders/02_basic/camera.rgen\n+++ shaders/02_basic/camera.rgen\n@@ -",
+        "+    imageStore(picture, ivec2(id), 0.5 * payload);\n",
+        "--- /dev/null\n+++ shaders/02_basic/half.glsl\n@@ -0,0 +1 @@\n+// Half.\n",
+    ] {
+        assert!(text.contains(part), "no '{part}' in:\n{text}");
+    }
+    // It is an exercise, and what is to be written is told.
+    let solution = fixture.run(&["exercise", "02.4", "--solution"]).out;
+    assert!(solution.contains("0.5 * payload"), "{solution}");
+    let write = format!("{file}:1: 'WRITE' holds a place for something");
+    assert!(fixture.check().lines().any(|line| line.starts_with(&write)), "{}", fixture.check());
+    // What was written stays.
+    fixture.replace(file, "WRITE a title", "Halve it");
+    fixture.replace("mine/02_basic/camera.rgen", "0.5 *", "0.25 *");
+    assert_eq!(make(&["--folder", &folder]).code, 0);
+    let text = fixture.read(file);
+    assert!(text.starts_with("Halve it\n\nTakes: shader\n") && text.contains("0.25 * payload"));
+    assert!(!text.contains("0.5 * payload"), "{text}");
+    // From what differs from the last commit.
+    let git = |arguments: &[&str]| {
+        let identity = ["-c", "user.name=a", "-c", "user.email=a@example.org"];
+        let mut git = Command::new("git");
+        let status = git.args(identity).args(arguments).current_dir(fixture.path("")).output();
+        assert!(status.expect("git starts").status.success(), "{arguments:?}");
+    };
+    git(&["init", "--quiet"]);
+    git(&["add", "--all"]);
+    git(&["commit", "--quiet", "--message", "All"]);
+    let outcome = make(&[]);
+    assert!(outcome.err.contains("was edited since the last commit"), "{}", outcome.err);
+    fixture.replace("samples/02_basic/main.rs", "fn main()", "// Mine.\nfn main()");
+    fixture.write("shaders/02_basic/mine.glsl", "// Mine.\n");
+    let told = format!(
+        "{file}\n\nNext:\ngit restore --staged --worktree samples/02_basic/main.rs\n\
+         rm shaders/02_basic/mine.glsl\ncargo chapters exercise 02.4 --prove\n"
+    );
+    assert_eq!(make(&[]).out, told);
+    let text = fixture.read(file);
+    assert!(
+        text.contains("+// Mine.\n fn main()") && text.contains("+++ shaders/02_basic/mine.glsl")
+    );
+    for (name, words) in [("02", "is no exercise's name"), ("02.0", "is no exercise's name")] {
+        let outcome = fixture.run(&["exercise", name, "--make"]);
+        assert_eq!((outcome.code, outcome.err.contains(words)), (2, true), "{}", outcome.err);
+    }
+}
+
+#[test]
+fn the_command_that_is_told_has_the_size_of_the_text() {
+    let fixture = Fixture::new();
+    let told = || fixture.run(&["exercise", "02.2", "--headless"]).out;
+    assert!(!told().contains("--size"), "{}", told());
+    fixture.replace(
+        "docs/exercises/02.2.diff",
+        "`--set show=normal`",
+        "`--set show=normal --size 40x30`",
+    );
+    assert!(told().contains("--set show=normal --size 40x30 --headless"), "{}", told());
+}
+
+#[test]
 fn progress_that_is_damaged_is_told_in_a_line() {
     let fixture = Fixture::new();
     let answer = || fixture.run(&["exercise", "02.2", "--answer", "up"]);

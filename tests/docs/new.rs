@@ -81,13 +81,17 @@ fn with_a_child_of_each(is_chosen: impl Fn(&str) -> bool) -> (TempDir, Vec<[Stri
     parents.retain(|name| {
         is_chosen(name) && !from.join("samples").join(name).join("Cargo.toml").is_file()
     });
-    let children = parents.into_iter().enumerate().map(|(index, parent)| {
-        let (number, name) = (index + 60, format!("child_of_{}", &parent[..2]));
+    let taken: Vec<usize> =
+        ::run::chapters().iter().filter_map(|name| name[..2].parse().ok()).collect();
+    let free: Vec<usize> = (1..100).rev().filter(|number| !taken.contains(number)).collect();
+    assert!(free.len() >= parents.len(), "there are no numbers left for children");
+    let children = parents.into_iter().zip(free).map(|(parent, number)| {
+        let name = format!("child_of_{}", &parent[..2]);
         let mut command = Command::new(::run::program("chapters"));
         command.args(["new", &number.to_string(), &name, "--from", &parent]);
         let outcome = run(command.arg("--root").arg(to));
         assert_eq!(outcome.code, 0, "{parent}: {}", outcome.err);
-        [parent, format!("{number}_{name}")]
+        [parent, format!("{number:02}_{name}")]
     });
     let children = children.collect();
     (project, children)
@@ -183,10 +187,17 @@ fn the_map_has_every_chapter_below_its_parent_and_the_ways() {
     fixture.replace("Cargo.toml", &way("09"), &way("01"));
     let map = "# Map\n\n<!-- map ways -->\n<!-- /map -->\n\n<!-- map chapters -->\n<!-- /map -->\n";
     fixture.write("docs/map.md", map);
+    fixture.replace("README.md", "# Fixture\n", "# Fixture\n\n![The map](docs/images/map.svg)\n");
     assert!(
         fixture.check().contains("docs/map.md:4: this part of the map is not what Cargo.toml says")
     );
+    let drawn =
+        "docs/images/map.svg:1: the map is not that of Cargo.toml; run: cargo chapters sync";
+    assert!(fixture.check().lines().any(|line| line == drawn), "{}", fixture.check());
     assert_eq!(fixture.run(&["sync"]).code, 0);
+    let svg = fixture.read("docs/images/map.svg");
+    assert!(svg.contains("02 · Basic") && svg.contains("Far"), "{svg}");
+    assert!(!fixture.check().contains("map"), "{}", fixture.check());
     let (one, two) = ("[01 · One](01_one.md)", "[02 · Basic](02_basic.md)");
     let map = fixture.read("docs/map.md");
     assert!(map.contains(&format!("| **Far** | {two}, {one} | much |\n")), "{map}");

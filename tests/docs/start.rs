@@ -36,7 +36,13 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
     let folder = above.path().join("deep/glow");
     let outcome = start(&[], &folder);
     assert_eq!(outcome.code, 0, "{}", outcome.err);
-    for line in ["src/main.rs", "shaders/glow/camera.rgen", "tests/picture.rs", "cargo run"] {
+    for line in [
+        ".cargo/config.toml",
+        "src/main.rs",
+        "shaders/glow/camera.rgen",
+        "tests/picture.rs",
+        "cargo run",
+    ] {
         assert!(outcome.out.lines().any(|told| told == line), "{}", outcome.out);
     }
     for file in outcome.out.lines().take_while(|line| !line.is_empty()) {
@@ -54,6 +60,18 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
         (locked(&folder.join("Cargo.lock")), locked(&::run::root().join("Cargo.lock")));
     let new: Vec<_> = own.difference(&book).map(|[name, ..]| name.as_str()).collect();
     assert_eq!(new, ["glow"]);
+    // What the book has compiled is used, by the same compiler of C++.
+    let settings = table(&folder.join(".cargo/config.toml"));
+    let target = Path::new(env!("CARGO_BIN_EXE_chapters")).ancestors().nth(2).expect("a folder");
+    let shared = settings["build"]["build-dir"].as_str().expect("a path");
+    assert_eq!(Path::new(shared), target.canonicalize().expect("the book's target"));
+    let book = table(&::run::root().join(".cargo/config.toml"));
+    for (name, setting) in book["env"].as_table().expect("variables") {
+        let value = ::run::root().join(setting["value"].as_str().expect("a path"));
+        assert!(value.is_file(), "{}", value.display());
+        let own = Path::new(settings["env"][name].as_str().expect("a path"));
+        assert_eq!(own, value.canonicalize().expect("a file"));
+    }
     // What the profile names is there: Cargo would warn of the rest.
     let manifest = table(&folder.join("Cargo.toml"));
     let profile = &manifest["profile"]["dev"];
@@ -78,6 +96,84 @@ fn the_framework_may_come_from_a_git_repository() {
     let dependency = &manifest["dependencies"]["raybook"];
     assert_eq!(dependency["git"].as_str(), Some("https://example.org/a\"b"));
     assert!(dependency.get("path").is_none());
+    assert!(!folder.join(".cargo").exists(), "another version may be compiled otherwise");
+}
+
+#[test]
+fn a_crate_may_be_built_apart() {
+    let above = tempfile::tempdir().expect("a temporary folder");
+    let folder = above.path().join("glow");
+    let outcome = start(&["--apart"], &folder);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    assert!(!outcome.out.contains("config.toml") && !folder.join(".cargo").exists());
+}
+
+/// The files of the template are a reader's own: they know of no chapter, and have no marks for pages.
+#[test]
+fn a_crate_of_one_s_own_speaks_of_no_chapter() {
+    let above = tempfile::tempdir().expect("a temporary folder");
+    let folder = above.path().join("glow");
+    let outcome = start(&[], &folder);
+    for file in outcome.out.lines().take_while(|line| !line.is_empty()) {
+        let text = fs::read_to_string(folder.join(file)).expect("what is told is there");
+        for word in ["ANCHOR", "chapter", "Taught by"] {
+            // The book's own crates stand in the lock until Cargo drops them.
+            assert!(file == "Cargo.lock" || !text.contains(word), "{file}: {word}");
+        }
+    }
+    let help = run(::run::command("my_tracer").arg("--help"));
+    assert_eq!(help.code, 0, "{}", help.err);
+    for word in ["chapter", "14", "23", "25", ".legs"] {
+        assert!(!help.out.contains(word), "{word}: {}", help.out);
+    }
+    let scenes = "25 also scene files (.toml)";
+    assert!(run(::run::command("02_basic").arg("--help")).out.contains(scenes));
+}
+
+#[test]
+fn frames_of_a_program_of_one_s_own_make_an_animation() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("a.png");
+    let mut program = ::run::command("my_tracer");
+    program.args(["--headless", "--size", "16x10", "--animate", "--frames", "3", "--out"]);
+    let outcome = run(program.arg(&out));
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    let still = "all frames are the same; what moves follows frame.index or a Playback\n";
+    assert!(
+        outcome.err.starts_with("warning: ") && outcome.err.ends_with(still),
+        "{}",
+        outcome.err
+    );
+    assert!(fs::read(&out).expect("a file").windows(4).any(|part| part == b"acTL"));
+}
+
+/// What `map_Kd` names is looked up at the hit.
+#[test]
+fn a_texture_of_one_s_own_model_is_shown() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = |name: &str| folder.path().join(name);
+    let model = "mtllib floor.mtl\nusemtl floor\nv -9 0 9\nv 9 0 9\nv 9 0 -9\nv -9 0 -9\n\
+                 vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    fs::write(file("floor.obj"), model).expect("a model");
+    let seen = |material: &str| {
+        fs::write(file("floor.mtl"), material).expect("a material");
+        let mut program = ::run::command("my_tracer");
+        program.args(["--headless", "--validate", "--size", "1x1", "--scene"]);
+        program.arg(file("floor.obj")).args(["--set", "camera eye=-2,3,-2"]);
+        program.args(["--set", "camera target=-2,0,-2.1", "--out"]).arg(file("out.exr"));
+        let outcome = run(&mut program);
+        assert_eq!((outcome.code, &*outcome.err), (0, ""));
+        let [red, green, blue, _] =
+            Picture::open_exr(&file("out.exr")).expect("a picture").pixels[0];
+        Vec3::new(red, green, blue)
+    };
+    // Left half red, right half green; the point is on the left.
+    let half = |x: u32, _| image::Rgb(if x < 32 { [255u8, 0, 0] } else { [0, 255, 0] });
+    image::RgbImage::from_fn(64, 64, half).save(file("halves.png")).expect("a texture");
+    let plain = seen("newmtl floor\nKd 1 1 1\n");
+    let red = seen("newmtl floor\nKd 1 1 1\nmap_Kd halves.png\n");
+    assert!(plain.min_element() > 0.1, "{plain}");
+    assert!(red.abs_diff_eq(plain * Vec3::X, 1e-5), "{red} instead of {}", plain * Vec3::X);
 }
 
 /// A program as it is after some steps of the page, on a ground of its own, which is grey.
@@ -130,6 +226,39 @@ fn the_moon_of_the_page_lights_the_ground() {
     let light = 0.5 * 2.0 * Vec3::new(0.2, 0.4, 0.8) * height / std::f32::consts::PI;
     let added = at("moon=2") - at("moon=0");
     assert!(added.abs_diff_eq(light, 1e-5), "{added} instead of {light}");
+}
+
+#[test]
+fn a_lamp_of_the_page_lights_the_ground() {
+    let steps = ["template", "second_light", "sphere", "bowl", "lamps"];
+    let program = Stepped::new("my_tracer_lamps").with(&steps);
+    let at = |lamps| {
+        let eye = ["camera eye=-0.5,3,1.9", "camera target=-0.5,0,1.8999"];
+        program.pixels("1x1", &[&[lamps], &eye[..]].concat())[0]
+    };
+    // The first lamp stands at (0, 0.35, 1.9).
+    let way = Vec3::new(0.5, 0.35, 0.0);
+    let arriving = Vec3::new(0.0, 0.04, 0.15) / way.length_squared() * (0.35 / way.length());
+    let light = 0.5 * arriving / std::f32::consts::PI;
+    let added = at("lamps=1") - at("lamps=0");
+    assert!(added.abs_diff_eq(light, 1e-4), "{added} instead of {light}");
+}
+
+#[test]
+fn a_grid_of_rays_is_the_mean_of_a_finer_picture() {
+    let steps = ["template", "second_light", "sphere", "bowl", "lamps", "smooth"];
+    let program = Stepped::new("my_tracer_smooth").with(&steps);
+    let (coarse, fine) =
+        (program.pixels("30x20", &["grid=4"]), program.pixels("120x80", &["grid=1"]));
+    let mean = |i: usize| {
+        let (x, y) = (i % 30, i / 30);
+        let of = |j: usize| fine[(4 * y + j / 4) * 120 + 4 * x + j % 4];
+        (0..16).map(of).sum::<Vec3>() / 16.0
+    };
+    // A ray along an edge may fall on either side of it in the other picture.
+    let is_other = |i: &usize| !coarse[*i].abs_diff_eq(mean(*i), 1e-4);
+    let others = (0..coarse.len()).filter(is_other).count();
+    assert!(others <= 6, "{others} of 600 pixels differ");
 }
 
 #[test]

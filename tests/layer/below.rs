@@ -23,6 +23,10 @@ pub struct Device {
     pub core: ash::Device,
     /// `VK_KHR_swapchain`; each function panics where the extension is not enabled.
     pub swapchain: khr::swapchain::DeviceFn,
+    /// `VK_KHR_acceleration_structure`, in the same way.
+    pub structures: khr::acceleration_structure::DeviceFn,
+    /// `VK_KHR_ray_tracing_pipeline`, in the same way.
+    pub rays: khr::ray_tracing_pipeline::DeviceFn,
     /// The function that finds those that the layer leaves alone.
     pub get_proc_addr: vk::PFN_vkGetDeviceProcAddr,
     /// The device it was made from.
@@ -80,6 +84,8 @@ pub fn add_device(
         // SAFETY: the device is alive.
         core: unsafe { ash::Device::load_with(load, handle) },
         swapchain: khr::swapchain::DeviceFn::load(load),
+        structures: khr::acceleration_structure::DeviceFn::load(load),
+        rays: khr::ray_tracing_pipeline::DeviceFn::load(load),
         get_proc_addr,
         physical,
     };

@@ -29,6 +29,32 @@ fn follows_an_edit(desk: Desk, folder: &Path) {
     ended_well(desk.end());
 }
 
+/// What the book has compiled is used, and its programs stay what they are.
+#[test]
+#[ignore = "nightly: it compiles the framework for another crate; quick: docs start::a_crate_of_one_s_own_is_whole_and_pinned"]
+fn a_started_crate_uses_what_the_book_has_compiled() {
+    let above = tempfile::tempdir().expect("a temporary folder");
+    let folder = above.path().join("glow");
+    let started = Command::new(run::program("chapters")).arg("start").arg(&folder).output();
+    assert!(started.expect("it starts").status.success());
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--offline"]).current_dir(&folder).env_remove("CARGO_TARGET_DIR");
+    let start = Instant::now();
+    let output = cargo.output().expect("cargo starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    println!("built in {} s", start.elapsed().as_secs());
+    let compiled = errors.lines().filter(|line| line.trim_start().starts_with("Compiling"));
+    let compiled: Vec<&str> = compiled.collect();
+    let name = |line: &&str| line.contains(" glow ") || line.contains(" raybook ");
+    assert!(compiled.iter().any(name), "{errors}");
+    assert!(!compiled.iter().any(|line| line.contains(" glslang")), "{compiled:#?}");
+    let mut program = Command::new(folder.join("target/debug/glow"));
+    let out = folder.join("glow.png");
+    program.args(["--headless", "--size", "16x10", "--out"]).arg(&out);
+    assert!(program.status().expect("it starts").success() && out.is_file());
+}
+
 /// The copy is all that `SHADERS` names: what it includes of `common/` comes from the book.
 #[test]
 fn a_program_outside_the_book_follows_edits_of_its_own_shaders() {
@@ -45,7 +71,8 @@ fn a_program_outside_the_book_follows_edits_of_its_own_shaders() {
 fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     let above = tempfile::tempdir().expect("a temporary folder");
     let (folder, home) = (above.path().join("glow"), above.path().join("home"));
-    let started = Command::new(run::program("chapters")).arg("start").arg(&folder).output();
+    let started =
+        Command::new(run::program("chapters")).arg("start").arg("--apart").arg(&folder).output();
     assert!(started.expect("it starts").status.success());
     let target = folder.join("target");
     let cargo = |arguments: &[&str]| {

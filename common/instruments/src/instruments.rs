@@ -10,6 +10,7 @@ use common::gpu::GpuOptions;
 use common::output;
 
 use crate::compare::{self, Comparison};
+use crate::options::of_the_book;
 use crate::pixel::{Probe, Which};
 use crate::report::Report;
 use crate::sums::{Gather, Sums, resumed};
@@ -96,7 +97,7 @@ pub fn check_files(args: &Args, options: &Options) -> Result<()> {
 
 impl RunHooks for Instruments {
     fn options(&self, command: Command) -> Command {
-        Options::augment_args(command)
+        Options::augment_args(of_the_book(command))
     }
 
     fn asked(&mut self, program: &Program, matches: &ArgMatches, args: &mut Args) -> Result<bool> {
@@ -143,6 +144,10 @@ impl RunHooks for Instruments {
         if let Some(comparison) = &self.comparison {
             let (name, driver) = (&run.gpu.name, &run.gpu.driver);
             self.print(&format!("{name} · {driver}\n\n{}", comparison.table()))?;
+            if let (Some(out), Some(first)) = (&run.args.out, comparison.values.first()) {
+                let (control, value) = (&comparison.control, &first.value);
+                self.print(&format!("\n{} shows {control}={value}\n", out.display()))?;
+            }
         }
         let mut compiled_for = Vec::new();
         if let Some(family) = self.options.compile_for.compile_for {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clap::{ArgMatches, Args as _, FromArgMatches};
+use clap::{ArgMatches, Args as _, Command, FromArgMatches};
 use common::UsageError;
 use common::app::{Args, Files, usage_error};
 
@@ -78,6 +78,16 @@ impl Options {
     }
 }
 
+/// The book's own words about an option of every program.
+pub fn of_the_book(command: Command) -> Command {
+    command.mut_arg("scene", |scene| {
+        scene.help(
+            "Open this model (.obj) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), \
+             25 also scene files (.toml)",
+        )
+    })
+}
+
 /// The command line of every sample, including the instruments.
 pub fn command() -> clap::Command {
     <Options as clap::Args>::augment_args(<Args as clap::CommandFactory>::command())
@@ -100,8 +110,9 @@ struct NoMore {}
 /// # Errors
 /// As [`parse`].
 pub fn parse_with<Own: clap::Args>(name: &'static str) -> Result<(Args, Options, Own), UsageError> {
-    let (mut args, matches) =
-        Args::parse(name, |command| Options::augment_args(Own::augment_args(command)))?;
+    let (mut args, matches) = Args::parse(name, |command| {
+        Options::augment_args(Own::augment_args(of_the_book(command)))
+    })?;
     let own = Own::from_arg_matches(&matches).map_err(|error| usage_error(&error))?;
     let options = Options::read(&matches, &mut args)?;
     Ok((args, options, own))

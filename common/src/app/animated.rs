@@ -13,6 +13,7 @@ use png::{BlendOp, ColorType, Compression, Encoder, Writer};
 use super::{Args, Format, Picture, Playback, Run};
 use crate::UsageError;
 use crate::files::write_whole;
+use crate::{output, paths};
 
 /// The most frames, a minute's worth: all are held in memory until the last one arrives.
 const MOST: u32 = 60 * Playback::RATE;
@@ -23,6 +24,8 @@ pub struct Animated {
     sink: Sink,
     /// Width, height and pixels of the last frame; none before the first.
     last: Option<(u32, u32, Vec<[u8; 3]>)>,
+    /// True if a frame differs from the one before.
+    moves: bool,
 }
 
 /// The encoder's output. The bytes outlive the encoder.
@@ -75,13 +78,19 @@ impl Animated {
     /// # Errors
     /// [`UsageError`] if the sample has nothing that moves.
     pub fn begin(run: &mut Run) -> Result<Self> {
-        let Some(playback) = run.sample.playback() else {
-            let what = "--animate is for chapters that play frames, such as 14_animation";
-            return Err(UsageError(format!("{} shows nothing that moves: {what}", run.name)).into());
-        };
-        if !playback.playing {
-            let what = "--animate shows what is played, and play=off stops it: leave that out";
-            return Err(UsageError(what.to_owned()).into());
+        match run.sample.playback() {
+            Some(playback) if playback.playing => {}
+            Some(_) => {
+                let what = "--animate shows what is played, and play=off stops it: leave that out";
+                return Err(UsageError(what.to_owned()).into());
+            }
+            // A program of another crate may move things by the frame's number; `save` tells if it does not.
+            None if paths::folder().is_some() => {}
+            None => {
+                let what = "--animate is for chapters that play frames, such as 14_animation";
+                let line = format!("{} shows nothing that moves: {what}", run.name);
+                return Err(UsageError(line).into());
+            }
         }
         Self::new(run.args.size.width, run.args.size.height, run.args.frames)
     }
@@ -96,7 +105,7 @@ impl Animated {
         encoder.set_frame_delay(1, Playback::RATE as u16)?;
         encoder.set_blend_op(BlendOp::Over)?;
         encoder.validate_sequence(true);
-        Ok(Self { writer: encoder.write_header()?, sink, last: None })
+        Ok(Self { writer: encoder.write_header()?, sink, last: None, moves: false })
     }
 
     /// Adds a frame.
@@ -110,6 +119,7 @@ impl Animated {
             None => [0, 0, width, height],
             Some((w, h, before)) => {
                 ensure!((*w, *h) == (width, height), "the frames of an animation differ in size");
+                self.moves |= *before != pixels;
                 changed(before, &pixels, width)
             }
         };
@@ -136,6 +146,10 @@ impl Animated {
     /// # Errors
     /// If frames are missing, or the file cannot be written.
     pub fn save(self, path: &Path) -> Result<()> {
+        if !self.moves {
+            let still = "all frames are the same; what moves follows frame.index or a Playback";
+            output::warn(&[format!("'{}': {still}", path.display())]);
+        }
         let bytes = self.bytes().with_context(|| format!("cannot encode '{}'", path.display()))?;
         write_whole(path, &bytes)
     }

@@ -66,7 +66,7 @@ pub struct Args {
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model (.obj) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), 25 also scene files (.toml)
+    /// Open this model (.obj) instead of the program's own
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 

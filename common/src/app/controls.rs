@@ -1,6 +1,7 @@
 //! One declaration, four uses: a control is a row of the panel, a `--set` of a script or test, a row of
 //! the table on the chapter's page, and a line of `--list-controls`.
 
+mod elsewhere;
 mod value;
 
 use std::ops::RangeInclusive;
@@ -23,6 +24,9 @@ pub trait Visit {
 
     /// Visits a line of information, such as what is in use; ignored by default.
     fn note(&mut self, _name: &str, _text: &str) {}
+
+    /// Visits a control that has no effect now, and the setting it needs; ignored by default.
+    fn idle(&mut self, _name: &str, _needs: &str) {}
 
     /// Visits the camera; by default as the controls a script can set.
     fn camera(&mut self, camera: &mut Camera) -> bool {
@@ -123,6 +127,14 @@ impl<'a> Controls<'a> {
         self.visitor.note(name, text);
     }
 
+    /// Says that a control has an effect only with a setting such as `light=point`, and whether that holds: setting
+    /// a control that has none is a warning.
+    pub fn needs(&mut self, name: &str, setting: &str, holds: bool) {
+        if !holds {
+            self.visitor.idle(name, setting);
+        }
+    }
+
     /// A camera: moved with the mouse in a window, by three controls elsewhere.
     pub fn camera(&mut self, camera: &mut Camera) -> bool {
         self.visitor.camera(camera)
@@ -164,6 +176,34 @@ impl Visit for Vec<Listed> {
         self.push(Listed { name: name.to_owned(), kind, possible, value: value.text() });
         false
     }
+}
+
+/// The controls that have no effect now, each with the setting it needs.
+#[derive(Default)]
+struct Idle(Vec<(String, String)>);
+
+impl Visit for Idle {
+    fn visit(&mut self, _: &str, _: Value) -> bool {
+        false
+    }
+
+    fn idle(&mut self, name: &str, needs: &str) {
+        self.0.push((name.to_owned(), needs.to_owned()));
+    }
+}
+
+/// A warning for each of these controls that has no effect now.
+pub fn without_effect<'a>(
+    names: impl Iterator<Item = &'a str>,
+    declare: impl FnOnce(&mut Controls),
+) -> Vec<String> {
+    let mut idle = Idle::default();
+    declare(&mut Controls::new(&mut idle));
+    let warning = |name: &str| {
+        let (_, needs) = idle.0.iter().find(|(idle, _)| idle == name)?;
+        Some(format!("control '{name}' has no effect here: it needs {needs}"))
+    };
+    names.filter_map(warning).collect()
 }
 
 /// Every control that `declare` declares.
@@ -286,7 +326,8 @@ fn round(
         // A control may be declared only after a later one has been set.
         if settings.waiting.len() == count {
             let there_is = settings.seen.join(", ");
-            return Err(UsageError(format!("no control '{name}'; there is {there_is}")));
+            let elsewhere = elsewhere::chapters_with(name);
+            return Err(UsageError(format!("no control '{name}'{elsewhere}; there is {there_is}")));
         }
     }
     Ok(())

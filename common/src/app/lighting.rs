@@ -24,6 +24,9 @@ impl Lighting {
     pub fn controls(&mut self, c: &mut Controls) {
         c.choice("light", &mut self.kind);
         self.controls_of_both(c);
+        c.needs("sun azimuth", "light=directional", self.kind == LightKind::Directional);
+        c.needs("sun elevation", "light=directional", self.kind == LightKind::Directional);
+        c.needs("lamp position", "light=point", self.kind == LightKind::Point);
     }
 
     /// Declares all controls except the choice between the two, for a chapter where both can shine.

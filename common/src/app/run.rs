@@ -57,6 +57,8 @@ impl<'a> Run<'a> {
         setup.check()?;
         files::check_scene(args)?;
         controls::set_all(&args.sets, |c| sample.controls(c))?;
+        let names = args.sets.iter().map(|(name, _)| &**name);
+        output::warn(&controls::without_effect(names, |c| sample.controls(c)));
         Ok(Self {
             name: program.name,
             args,

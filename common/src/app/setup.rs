@@ -8,8 +8,8 @@ use anyhow::Result;
 use super::Args;
 use crate::UsageError;
 use crate::model::text::shown;
-use crate::output;
 use crate::scene::{Scene, SceneOptions};
+use crate::{output, paths};
 
 /// The options a sample is created with.
 pub struct Setup {
@@ -41,8 +41,12 @@ impl Setup {
             return own().inspect(|scene| output::warn(&scene.model.warnings));
         };
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-            let what =
-                "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file";
+            let what = match paths::folder() {
+                None => {
+                    "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file"
+                }
+                Some(_) => "a scene file of the book; this program takes an OBJ file",
+            };
             return Err(UsageError(format!("{}: {what}", shown(path))).into());
         }
         let scene = Scene::open(path)?;
@@ -53,9 +57,10 @@ impl Setup {
     /// Fails if a scene was given to a sample that does not accept one.
     pub(super) fn check(&self) -> Result<(), UsageError> {
         if self.scene.is_some() && !self.scene_taken.get() {
-            return Err(UsageError(
-                "this chapter brings its own scene and takes no --scene".to_owned(),
-            ));
+            let what = if paths::folder().is_none() { "chapter" } else { "program" };
+            return Err(UsageError(format!(
+                "this {what} brings its own scene and takes no --scene"
+            )));
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Memory barriers, named for what they are for.
 //!
-//! The validation layers do not see every hazard around traces and builds, so each barrier says here
-//! which writes it makes visible to which reads (Vulkan specification, "Synchronization").
+//! Each says which writes it makes visible to which reads (Vulkan specification, "Synchronization"). The validation
+//! layers do not see most hazards around traces and builds; the tests' layer `minimum_limits` does.
 
 use ash::vk::{self, AccessFlags2 as Access, PipelineStageFlags2 as Stage};
 

@@ -13,6 +13,7 @@ use super::answer::Answer;
 use super::attempt::{Attempt, Originals};
 use super::exercise::{Exercise, Takes};
 use super::formula::plain;
+use super::making;
 use super::moved::Moved;
 use super::progress::Progress;
 use super::solution::Solution;
@@ -56,6 +57,10 @@ pub struct ExerciseArguments {
     /// Open no window
     #[arg(long)]
     headless: bool,
+    /// For authors: write the exercise's diff, from what you have edited since the last commit, or from a copy of the
+    /// shaders that --folder names
+    #[arg(long, group = "what")]
+    make: bool,
     /// For authors: hold exercises to what their files claim, unsolved before the solution, solved after it
     #[arg(long, group = "what")]
     prove: bool,
@@ -73,6 +78,13 @@ impl ExerciseArguments {
         interrupt::listen();
         if self.prove || self.vary {
             return self.prove(project);
+        }
+        if self.make {
+            let [name] = &self.names[..] else {
+                let what = "--make writes one exercise: name it, such as 05.2";
+                return Err(UsageError(what.to_owned()).into());
+            };
+            return print(&making::make(project, name, self.folder.as_deref())?);
         }
         let exercises = match &self.names[..] {
             [] if self.list => Exercise::whole(project)?,

@@ -9,6 +9,7 @@ pub mod expectation;
 pub mod fingerprint;
 pub mod formula;
 pub mod interval;
+mod making;
 pub mod mismatch;
 pub mod moved;
 pub mod progress;

@@ -61,7 +61,7 @@ impl<'a> Solution<'a> {
         if let Some(patched) = self.patched.get() {
             return Ok(&patched.edition);
         }
-        let patched = Patched::of(self.programs.project, &self.exercise.patch)?;
+        let patched = Patched::of(self.programs, &self.exercise.patch)?;
         Ok(&self.patched.get_or_init(|| patched).edition)
     }
 

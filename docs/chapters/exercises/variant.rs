@@ -174,7 +174,7 @@ pub fn prove(programs: &Programs, originals: &Originals, exercise: &Exercise) ->
     let (mut refused, mut same, mut accepted) = (0, Vec::new(), Vec::new());
     for variant in variants(exercise).map_err(Fault::error)? {
         interrupt::asked()?;
-        let edition = Patched::of(programs.project, &variant.patch)?;
+        let edition = Patched::of(programs, &variant.patch)?;
         if !attempt.looks_solved(&edition.edition)? {
             refused += 1;
         } else if exercise.same.contains(&variant.what) {

@@ -314,11 +314,16 @@ impl<'a> Workbench<'a> {
         settings
     }
 
-    /// The arguments of the first run, in the usual size.
+    /// The arguments of the first run, in the size that the text names, or else in the usual one.
     fn look(&self) -> Vec<String> {
         let mut words = self.first_run().unwrap_or_default().to_vec();
         if let Some(at) = words.iter().position(|word| word == "--size") {
             words.drain(at..at + 2);
+        }
+        let mut named = self.exercise.text.split("--size ").skip(1);
+        let is_part = |letter: char| letter == 'x' || letter.is_ascii_digit();
+        if let Some(size) = named.next().and_then(|rest| rest.split(|c: char| !is_part(c)).next()) {
+            words.extend(["--size".to_owned(), size.to_owned()]);
         }
         words
     }

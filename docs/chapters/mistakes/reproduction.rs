@@ -109,7 +109,7 @@ impl<'a> Reproduction<'a> {
     }
 
     fn wrong(&self, size: (u32, u32)) -> Result<RunResult> {
-        let wrong = Patched::of(self.programs.project, &self.mistake.patch)?;
+        let wrong = Patched::of(self.programs, &self.mistake.patch)?;
         self.run(&wrong.edition, size)
     }
 

@@ -15,7 +15,8 @@ use super::glossary::Glossary;
 use super::markdown::Markdown;
 use super::reference::Files;
 use super::{
-    breath, chapter_files, exercise_list, gallery, price, shared_shader, stray_file, text,
+    breath, chapter_files, exercise_list, gallery, map, placeholder, price, shared_shader,
+    stray_file, text,
 };
 use crate::exercises::exercise;
 use crate::mistakes::mistake::Mistake;
@@ -106,7 +107,13 @@ impl<'a> Book<'a> {
                 "the table of contents is not that of Cargo.toml",
             ));
         }
+        if let Some(drawn) = map::drawing(project, &self.pages)
+            && project.read(map::FILE).unwrap_or_default() != drawn
+        {
+            faults.push(Fault::stale(map::FILE, 1, "the map is not that of Cargo.toml"));
+        }
         faults.extend(self.wrong_anchors());
+        faults.extend(placeholder::check_files(project));
         faults.extend(stray_file::check(project, &linked));
         faults.extend(nightly::check(project));
         faults.extend(card::all(project).1);
@@ -153,6 +160,9 @@ impl<'a> Book<'a> {
         let summary = project.read(SUMMARY).unwrap_or_default();
         if project.root.join("docs").is_dir() {
             write(SUMMARY, &summary, &gallery::summary(project))?;
+        }
+        if let Some(drawn) = map::drawing(project, &self.pages) {
+            write(map::FILE, &project.read(map::FILE).unwrap_or_default(), &drawn)?;
         }
         faults.sort();
         faults.dedup();

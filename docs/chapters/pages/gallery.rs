@@ -14,6 +14,7 @@ const BEFORE: &[(&str, &str)] = &[
     ("own-program.md", "Your own program"),
 ];
 const AFTER: &[(&str, &str)] = &[
+    ("command-line.md", "The command line"),
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
     ("reordering.md", "Threads that change places"),

@@ -2,6 +2,9 @@
 
 use manuscript::fault::Fault;
 use manuscript::page::Page;
+use manuscript::project::Project;
+
+use crate::exercises::exercise;
 
 /// The lesson of a chapter that `new` has made.
 pub const TEACHES: &str = "say here, in a line, what it teaches";
@@ -12,7 +15,14 @@ pub const OPENING: [&str; 2] = ["what it teaches, in a line.", "what is new."];
 /// The placeholder of a figure in a cell of a table.
 const CELLS: [&str; 3] = ["X", "TBD", "TODO"];
 
-/// Every placeholder: a line that is nothing but a word of capitals, or a cell that says it is empty.
+/// The word that `new` puts where something is to be written.
+const WRITE: &str = "WRITE";
+
+/// The beginning of a comment that asks for another.
+const SAY: &str = "say here";
+
+/// Every placeholder of a page: a line that is nothing but a word of capitals, a cell that says it is empty, `WRITE`
+/// within a line, or a request to say something.
 pub fn check(page: &Page) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (line, text) in page.prose() {
@@ -23,9 +33,39 @@ pub fn check(page: &Page) -> Vec<Fault> {
         } else {
             Some(text).filter(|text| is_word_of_capitals(text))
         };
-        faults.extend(found.map(|word| fault(&page.path, line, word)));
+        faults.extend(found.or_else(|| within(text)).map(|word| fault(&page.path, line, word)));
     }
     faults
+}
+
+/// The placeholders of exercises, and of the programs and tests of chapters, whose comments may ask for something.
+pub fn check_files(project: &Project) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for folder in [exercise::FOLDER, "samples", "tests/samples"] {
+        let is_comment = |line: &str| line.trim_start().starts_with("//");
+        for file in project.files(folder) {
+            let (exercise, rust) = (folder == exercise::FOLDER, file.ends_with(".rs"));
+            let text = (exercise || rust).then(|| project.read(&file).ok()).flatten();
+            // An exercise's diff may add whatever it likes.
+            let text = text.unwrap_or_default();
+            let lines = text.lines().take_while(|line| !(exercise && line.starts_with("--- ")));
+            let asked = lines.enumerate().filter(|(_, line)| exercise || is_comment(line));
+            faults.extend(
+                asked.filter_map(|(index, line)| Some(fault(&file, index + 1, within(line)?))),
+            );
+        }
+    }
+    faults
+}
+
+/// A placeholder within a line. In a code span it is quoted.
+fn within(text: &str) -> Option<&str> {
+    let is_letter = |c: char| c.is_ascii_alphanumeric() || ['-', '_'].contains(&c);
+    let mut prose = text.split('`').step_by(2);
+    let write = prose.any(|part| part.split(|c: char| !is_letter(c)).any(|word| word == WRITE));
+    let words = text.trim_start_matches(['/', '!', ' ', '>', '*', '-']);
+    let say = words.get(..SAY.len()).filter(|start| start.eq_ignore_ascii_case(SAY));
+    if write { Some(WRITE) } else { say.map(|_| words) }
 }
 
 /// A place in a file that such words hold.
@@ -43,6 +83,19 @@ fn is_word_of_capitals(line: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_placeholder_is_found_within_a_line() {
+        let text = "![WRITE](a.png)\n\n> **Exact:** WRITE **Price:** none\n\n`WRITE` is a word.\n\n\
+            SYNC-HAZARD-WRITE-AFTER-WRITE\n\nSay here which device set the tolerance\n\nWe say here no more.\n";
+        let lines = check(&Page::parse("p.md", text)).into_iter().map(|fault| fault.line);
+        assert_eq!(lines.collect::<Vec<_>>(), [1, 3, 9]);
+        assert_eq!(
+            within("    // Say here which device set it."),
+            Some("Say here which device set it.")
+        );
+        assert_eq!(within("Text: WRITE it. Then run it."), Some("WRITE"));
+    }
 
     #[test]
     fn only_a_line_or_a_cell_of_its_own_is_a_placeholder() {

@@ -1,8 +1,9 @@
 //! Copies of the shaders, or of all code, in which some files hold something else.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use anyhow::{Context, Result};
 use common::files::folder;
@@ -42,8 +43,8 @@ pub fn copy_code(project: &Project, folder: &Path, changed: &Changed) -> Result<
 
 /// Makes a folder a copy of some folders and files, of which `changed` replaces some.
 ///
-/// A file that is right already is left alone, so that Cargo builds only what has changed; one that the
-/// copy has too many is removed.
+/// A file has the project's time, and a changed one the present time, so that Cargo builds only what has changed; one
+/// that the copy has too many is removed.
 fn copy(
     project: &Project,
     above: &Path,
@@ -63,14 +64,21 @@ fn copy(
     }
     for (file, text) in files {
         let to = place(&file);
-        let bytes = match text {
-            Some(text) => text.clone().into_bytes(),
-            None => fs::read(project.root.join(&file))?,
+        let own = project.root.join(&file);
+        let (bytes, time) = match text {
+            Some(text) => (text.clone().into_bytes(), SystemTime::now()),
+            None => (fs::read(&own)?, fs::metadata(&own)?.modified()?),
         };
         if fs::read(&to).is_ok_and(|there| there == bytes) {
-            continue;
+            if fs::metadata(&to)?.modified()? == time {
+                continue;
+            }
+        } else {
+            folder::write(&to, &bytes)?;
         }
-        folder::write(&to, &bytes)?;
+        let stamped =
+            File::options().write(true).open(&to).and_then(|file| file.set_modified(time));
+        stamped.with_context(|| format!("cannot write '{}'", to.display()))?;
     }
     Ok(())
 }

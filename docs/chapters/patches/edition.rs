@@ -11,11 +11,12 @@ use manuscript::project::Project;
 use time_limit::{ASLEEP, Limit};
 
 use super::patch::Patch;
+use super::seed;
 use crate::programs::child;
 use crate::programs::program::Programs;
 
-/// The folder in which patched code is built, one patch after the other: Cargo builds only what differs from
-/// the one before, which takes minutes for the first.
+/// The folder in which patched code is built, one patch after the other, from what the book's own build has left
+/// ([`seed`]).
 const COPY: &str = "target/mistakes/copy";
 const BUILT: &str = "target/mistakes/build";
 const LOCK: &str = "target/mistakes/lock";
@@ -50,7 +51,8 @@ impl Patched {
     ///
     /// # Errors
     /// If the patch does not fit, or the copy cannot be written.
-    pub fn of(project: &Project, patch: &Patch) -> Result<Self> {
+    pub fn of(programs: &Programs, patch: &Patch) -> Result<Self> {
+        let project = programs.project;
         if patch.is_in_shaders() {
             let folder = NewFolder::temporary()?;
             patch.copy_to(project, folder.path())?;
@@ -65,6 +67,10 @@ impl Patched {
             lock.lock().context("cannot wait for a lock")?;
         }
         patch.copy_to(project, &copy)?;
+        let profile = programs.profile();
+        let changed = patch.files().into_iter().map(str::to_owned).collect();
+        let build = project.root.join(BUILT).join(profile);
+        seed::plant(&programs.target().join(profile), &build, &changed)?;
         Ok(Self { edition: Edition::Copy(copy), _shaders: None, _lock: Some(lock) })
     }
 }
@@ -97,9 +103,7 @@ impl Edition {
             Self::Copy(_) | Self::Edited => {
                 let (mut cargo, target) = self.cargo("build", programs);
                 let what = match self {
-                    Self::Copy(_) => {
-                        format!("building {chapter} in a copy, minutes the first time")
-                    }
+                    Self::Copy(_) => format!("building {chapter} in a copy"),
                     _ => format!("building {chapter}"),
                 };
                 cargo.args(["--quiet", "--bin", chapter]);
@@ -109,9 +113,8 @@ impl Edition {
                 if *self == Self::Edited {
                     return book();
                 }
-                let profile = if programs.are_released() { "release" } else { "debug" };
                 let name = format!("{chapter}{}", std::env::consts::EXE_SUFFIX);
-                let mut command = Command::new(target.join(profile).join(name));
+                let mut command = Command::new(target.join(programs.profile()).join(name));
                 command
                     .current_dir(&programs.project.root)
                     .env("SHADERS", self.shaders(programs.project));
@@ -128,8 +131,9 @@ impl Edition {
         // A build may take as long as it will, and only once. With a test Cargo builds all programs of its package.
         let (mut build, _) = self.cargo("test", programs);
         build.args(["--no-run", "--test", program]);
-        let what =
-            format!("building all programs and the tests of {program}, minutes the first time");
+        let what = format!(
+            "building all programs and the tests of {program}, minutes if they are not built yet"
+        );
         let built = child::run_saying(&mut build, Limit::NONE, &what)?;
         ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
         let tested = self.run_tests(programs, (program, filter), &[])?;

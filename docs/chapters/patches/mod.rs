@@ -4,3 +4,4 @@ pub mod copy;
 pub mod edition;
 pub mod hunk;
 pub mod patch;
+mod seed;

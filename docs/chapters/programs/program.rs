@@ -70,6 +70,11 @@ impl<'a> Programs<'a> {
         self.folder.ends_with("release")
     }
 
+    /// The name of the profile's folder.
+    pub fn profile(&self) -> &'static str {
+        if self.are_released() { "release" } else { "debug" }
+    }
+
     /// As [`Programs::command`]; the error says what to do, too.
     ///
     /// # Errors

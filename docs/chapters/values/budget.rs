@@ -1,6 +1,9 @@
 //! The compiled size of a chapter's default pipeline on a GPU, from `tests/gpus/budgets.json`: the tests of `gpus` ask
 //! the compiler, and what they have recorded need not be asked a second time.
 
+use std::collections::BTreeSet;
+
+use manuscript::fault::Fault;
 use manuscript::project::Project;
 use serde_json::{Map, Value};
 
@@ -29,4 +32,28 @@ pub fn values(project: &Project, stored: &Record) -> Option<Map<String, Value>> 
     let recorded: Value = serde_json::from_str(&project.read(FILE).ok()?).ok()?;
     let recorded = recorded[format!("Mesa {version}")][chapter][family?].as_object()?;
     (recorded.get("programs") == Some(&Value::from(1))).then(|| recorded.clone())
+}
+
+/// Chapters of which no compiler's figures are recorded, and records of chapters that are gone.
+pub fn check(project: &Project) -> Vec<Fault> {
+    let Ok(text) = project.read(FILE) else { return Vec::new() };
+    let renew = "run: UPDATE=1 cargo test --test gpus";
+    let fault = |what: String| Fault::new(FILE, 1, what, renew);
+    let Ok(Value::Object(recorded)) = serde_json::from_str(&text) else {
+        return vec![fault("this is no table of figures".to_owned())];
+    };
+    let known: BTreeSet<&str> = recorded
+        .values()
+        .filter_map(Value::as_object)
+        .flat_map(Map::keys)
+        .map(String::as_str)
+        .collect();
+    let missing = project.chapters.iter().filter(|chapter| {
+        // The first calls Vulkan by itself, and no compiler is asked.
+        chapter.from.is_some() && !known.contains(&*chapter.name)
+    });
+    let missing = missing.map(|chapter| format!("nothing is recorded of '{}'", chapter.name));
+    let gone = known.iter().filter(|name| project.named(name).is_none());
+    let gone = gone.map(|name| format!("'{name}' is no chapter any more"));
+    missing.chain(gone).map(fault).collect()
 }

@@ -47,5 +47,6 @@ pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let readable = pages.iter().filter(|page| is_readable(page.stem()));
     faults.extend(readable.flat_map(|page| binding::check(page, &stored)));
     faults.extend(table::strays(project, pages));
+    faults.extend(budget::check(project));
     faults
 }

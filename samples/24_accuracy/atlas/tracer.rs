@@ -4,6 +4,7 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, ShaderBindingTable,
+    barrier,
 };
 use common::scene::input_usage;
 use glam::{Vec2, Vec3};
@@ -190,6 +191,7 @@ impl Tracer {
             let tlas = Descriptor::AccelerationStructure(&world.tlas);
             self.pipeline.bind(cmd, &[tlas], &push)?;
             self.sbt.trace(cmd, extent.into());
+            barrier::trace_to_trace(gpu, cmd);
             Ok(())
         })?;
         let corners = if is_fetched { fetched.read()? } else { Vec::new() };

@@ -5,7 +5,7 @@ use std::ffi::{c_char, c_void};
 use ash::vk;
 use layer::Negotiation;
 
-use crate::{device, memory, physical, queues, rays};
+use crate::{commands, device, memory, physical, queues, rays};
 use layer::below;
 
 /// Settles on version 2 of the interface, the present one.
@@ -75,6 +75,17 @@ fn device_function(name: &str) -> Option<*const c_void> {
         "vkMapMemory" => memory::map as *const c_void,
         "vkCreateBuffer" => rays::create_buffer as *const c_void,
         "vkCmdPipelineBarrier2" | "vkCmdPipelineBarrier2KHR" => rays::barrier as *const c_void,
+        "vkCreateAccelerationStructureKHR" => commands::create_structure as *const c_void,
+        "vkCmdBuildAccelerationStructuresKHR" => commands::build as *const c_void,
+        "vkCmdCopyAccelerationStructureKHR" => commands::copy_structure as *const c_void,
+        "vkCmdTraceRaysKHR" => commands::trace as *const c_void,
+        "vkCmdDispatch" => commands::dispatch as *const c_void,
+        "vkCmdFillBuffer" => commands::fill as *const c_void,
+        "vkCmdUpdateBuffer" => commands::update as *const c_void,
+        "vkCmdCopyBuffer" => commands::copy as *const c_void,
+        "vkCmdCopyImageToBuffer" => commands::copy_from_image as *const c_void,
+        "vkCmdClearColorImage" => commands::clear_image as *const c_void,
+        "vkEndCommandBuffer" => commands::end as *const c_void,
         "vkCreateSwapchainKHR" => device::create_swapchain as *const c_void,
         _ => return None,
     })

@@ -21,14 +21,19 @@
 //! - `tell=FILE`: when the device is destroyed, the file gets four numbers: how often was submitted, and how
 //!   many allocations there were of memory in the device, in the host, and in the device but mapped.
 //!
+//! Nothing is in order that no barrier orders: a command that uses what an earlier one wrote, with no barrier between
+//! that says so, ends the process.
+//!
 //! To open the device with an extension that it does not show is an error.
 
+mod commands;
 mod device;
 mod entry;
 mod faults;
 mod features;
 mod limits;
 mod memory;
+mod order;
 mod physical;
 mod queues;
 mod rays;

@@ -17,6 +17,7 @@ use ash::vk;
 use common::UsageError;
 use common::app::{Bands, Progress, Run, controls};
 use common::gpu::Image;
+use common::output;
 use serde::Serialize;
 
 /// The shortest launch worth timing, in milliseconds; the picture is enlarged until it takes as long.
@@ -105,6 +106,7 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), UsageError> {
 /// # Errors
 /// If the control does not have a value, or the sample or the device fails.
 pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Comparison> {
+    output::warn(&controls::without_effect(std::iter::once(control), |c| run.sample.controls(c)));
     let rounds = run.args.frames;
     let turns = u64::from(rounds) * (values.len() as u64 + 1);
     let mut progress = Progress::new(turns, "frames");
@@ -147,6 +149,8 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         run.image = asked;
     }
     (comparison.frames, comparison.widened) = (frames, size);
+    // The picture of the run is that of the first value, whichever was timed last.
+    controls::set_beside(&run.args.sets, control, &values[0], |c| run.sample.controls(c))?;
     Ok(comparison)
 }
 

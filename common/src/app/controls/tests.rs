@@ -53,6 +53,36 @@ fn every_control_can_be_set_to_what_the_list_says_it_is() {
     assert_eq!((sample.camera.eye, sample.camera.fov_y), (DVec3::new(1e6, 2.0, -3.5), 30.0));
 }
 
+/// A lamp, which only one kind of light has.
+#[derive(Default)]
+struct Lit {
+    light: u32,
+    lamp: f32,
+}
+
+impl Lit {
+    fn controls(&mut self, c: &mut Controls) {
+        c.slider("lamp", &mut self.lamp, 0.0..=10.0);
+        c.needs("lamp", "light=point", self.light == 1);
+        c.one_of("light", &mut self.light, &["sun", "point"]);
+    }
+}
+
+#[test]
+fn a_control_without_effect_is_told_if_it_is_set() {
+    let told = |sets: &[&str]| {
+        let mut lit = Lit::default();
+        let pairs: Vec<_> = sets.iter().filter_map(|set| set.split_once('=')).collect();
+        let owned: Vec<_> =
+            pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+        set_all(&owned, |c| lit.controls(c)).unwrap();
+        without_effect(pairs.iter().map(|(name, _)| *name), |c| lit.controls(c))
+    };
+    assert_eq!(told(&["lamp=3"]), ["control 'lamp' has no effect here: it needs light=point"]);
+    assert!(told(&["lamp=3", "light=point"]).is_empty());
+    assert!(told(&["light=sun"]).is_empty());
+}
+
 /// A preset, what it brings, and a control that is there for one preset alone, declared before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Presets {

@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use egui::{
-    Align, Align2, Area, Context, Event, Id, InputState, Layout, PointerButton, Response, RichText,
-    ScrollArea, Sense, Ui,
+    Align, Align2, Area, Button, Context, Event, Id, InputState, Layout, PointerButton, Response,
+    RichText, ScrollArea, Sense, Ui,
 };
 
 use super::compiler;
@@ -21,6 +21,8 @@ const MARGIN: f32 = 12.0;
 const WIDTH: f32 = 292.0;
 /// Windows at least this wide, in points, show the panel beside the picture; in others it covers it.
 const WIDE: f32 = 900.0;
+/// In windows narrower than this, in points, it would leave little of the picture: there it opens on request.
+const NARROW: f32 = 600.0;
 /// Time for which a note is shown.
 const MOMENT: Duration = Duration::from_secs(4);
 
@@ -53,7 +55,8 @@ pub struct Panel {
     /// The shader error, until it is fixed.
     pub error: Option<String>,
     note: Option<(String, Instant)>,
-    shown: bool,
+    /// What the user chose; before that the width of the window decides.
+    shown: Option<bool>,
     help: bool,
     width: f32,
     /// The bottom of the panel in the last frame, including its margin, in points.
@@ -68,7 +71,7 @@ impl Panel {
             history: History::default(),
             error: None,
             note: None,
-            shown: true,
+            shown: None,
             help: false,
             width: WIDTH,
             end: 0.0,
@@ -77,7 +80,11 @@ impl Panel {
 
     /// Width of the strip that belongs to the panel, in points: the picture is to the right of it.
     pub fn strip(&self, window: f32) -> f32 {
-        if self.shown && window >= WIDE { self.end } else { 0.0 }
+        if self.is_shown(window) && window >= WIDE { self.end } else { 0.0 }
+    }
+
+    fn is_shown(&self, window: f32) -> bool {
+        self.shown.unwrap_or(window >= NARROW)
     }
 
     /// Shows a message for a moment, such as the name of a written file.
@@ -95,7 +102,8 @@ impl Panel {
         let context = ui.ctx().clone();
         let mut outcome = Outcome::default();
         let mut place = ui.max_rect();
-        place.min.x += self.strip(place.width());
+        let window = place.width();
+        place.min.x += self.strip(window);
         let picture = ui.interact(place, Id::new("picture"), Sense::drag());
         context.input(|input| self.navigation.drag(&picture, input));
         outcome.clicked = context.input(|input| clicked(&picture, input));
@@ -104,17 +112,20 @@ impl Panel {
             context.input(|input| self.navigation.keys(input));
             context.input_mut(|input| self.navigation.transport.keys(input));
             outcome.asked = keys::asked(&context);
-            outcome.asked.retain(|ask| !self.answer(*ask));
+            outcome.asked.retain(|ask| !self.answer(*ask, window));
         }
-        outcome.changed = if self.shown {
+        let shown = self.is_shown(window);
+        outcome.changed = if shown {
             self.sheet(&context, facts, declare)
         } else {
             let mut hidden = Hidden::new(&mut self.navigation);
             declare(&mut Controls::new(&mut hidden));
             hidden.changed
         };
-        if !self.shown && self.error.is_some() {
-            self.alone(&context);
+        match (shown, self.shown) {
+            (false, _) if self.error.is_some() => self.alone(&context),
+            (false, None) => self.folded(&context),
+            _ => {}
         }
         if self.help {
             keys::help(&context);
@@ -123,10 +134,10 @@ impl Panel {
     }
 
     /// Executes a key's command for the panel itself; `false` if it is for the window.
-    fn answer(&mut self, ask: Ask) -> bool {
+    fn answer(&mut self, ask: Ask, window: f32) -> bool {
         match ask {
             Ask::Help => self.help = !self.help,
-            Ask::Panel => self.shown = !self.shown,
+            Ask::Panel => self.shown = Some(!self.is_shown(window)),
             Ask::Leave if self.help => self.help = false,
             _ => return false,
         }
@@ -210,6 +221,17 @@ impl Panel {
             ui.label(RichText::new("The last good picture stays").small().color(style::ERROR));
             let text = RichText::new(error).monospace();
             ui.add(egui::Label::new(text).wrap().selectable(true));
+        });
+    }
+
+    /// What stands for the panel where there is no room for it, until the user opens it or presses Tab.
+    fn folded(&mut self, context: &Context) {
+        let area = Area::new(Id::new("folded")).anchor(Align2::LEFT_TOP, [MARGIN / 2.0; 2]);
+        area.show(context, |ui| {
+            let text = RichText::new("Panel (Tab)").small();
+            if ui.add(Button::new(text).fill(style::WELL.gamma_multiply(0.8))).clicked() {
+                self.shown = Some(true);
+            }
         });
     }
 

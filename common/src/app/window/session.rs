@@ -23,6 +23,7 @@ use super::{Of, Wake};
 use crate::app::files::check_size;
 use crate::app::{Args, Controls, Sample, Setup, controls};
 use crate::gpu::Gpu;
+use crate::output;
 
 type Make = fn(&Gpu, &Setup) -> Result<Box<dyn Sample>>;
 
@@ -65,6 +66,8 @@ impl Session {
         // Home is the camera chosen by the chapter, whatever `--set` changes.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
         controls::set_all(&args.sets, |c| sample.controls(c))?;
+        let names = args.sets.iter().map(|(name, _)| &**name);
+        output::warn(&controls::without_effect(names, |c| sample.controls(c)));
         let gpu = &on_gpu.gpu;
         Ok(Self {
             view: View::new(gpu, sample)?,

@@ -39,6 +39,10 @@ fn harness() -> Harness<'static, Demo> {
 }
 
 fn harness_with(facts: Facts) -> Harness<'static, Demo> {
+    harness_of(960.0, facts)
+}
+
+fn harness_of(width: f32, facts: Facts) -> Harness<'static, Demo> {
     let demo = Demo {
         panel: Panel::new("test"),
         height: 5.0,
@@ -51,7 +55,7 @@ fn harness_with(facts: Facts) -> Harness<'static, Demo> {
         changes: 0,
         asked: Vec::new(),
     };
-    let builder = Harness::builder().with_size(vec2(960.0, 700.0));
+    let builder = Harness::builder().with_size(vec2(width, 700.0));
     builder.build_ui_state(
         move |ui, demo: &mut Demo| {
             let mut panel = std::mem::replace(&mut demo.panel, Panel::new("test"));
@@ -99,6 +103,29 @@ fn each_kind_of_control_changes_its_value() {
     assert_eq!(harness.state().show, 1);
     assert_eq!(harness.state().changes, 3, "each once");
     assert_eq!(harness.state().camera, Camera::default());
+}
+
+#[test]
+fn in_a_small_window_the_panel_waits_until_it_is_asked_for() {
+    let mut harness = harness_of(480.0, Facts::default());
+    harness.run();
+    assert!(harness.query_by_label("shadows").is_none(), "it covers the picture");
+    harness.get_by_label("Panel (Tab)").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::CheckBox, "shadows");
+    harness.key_press(Key::Tab);
+    harness.run();
+    assert!(harness.query_by_label("shadows").is_none(), "Tab hides it");
+    assert!(harness.query_by_label("Panel (Tab)").is_none(), "whoever has hidden it knows how");
+    // Tab opens it at once, too, and an error is told in its place.
+    let mut harness = harness_of(480.0, Facts::default());
+    harness.key_press(Key::Tab);
+    harness.run();
+    harness.get_by_role_and_label(Role::CheckBox, "shadows");
+    let mut harness = harness_of(480.0, Facts::default());
+    harness.state_mut().panel.error = Some("camera.rgen:3: nonsense".to_owned());
+    harness.run();
+    harness.get_by_label("camera.rgen:3: nonsense");
 }
 
 #[test]
