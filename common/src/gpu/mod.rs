@@ -46,5 +46,6 @@ pub use pipeline::{
     Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline, PipelineBuilder,
     RayTracingPipeline, contraction, sbt, shader,
 };
+pub use submit::is_at_work;
 pub use swapchain::{Acquired, Swapchain};
 pub use timing::Timer;
