@@ -56,6 +56,7 @@ impl<'a> Run<'a> {
         let mut sample = (program.make)(&gpu, &setup)?;
         setup.check()?;
         files::check_scene(args)?;
+        controls::check(|c| sample.controls(c))?;
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let names = args.sets.iter().map(|(name, _)| &**name);
         output::warn(&controls::without_effect(names, |c| sample.controls(c)));
