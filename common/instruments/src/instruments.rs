@@ -120,6 +120,10 @@ impl RunHooks for Instruments {
         if let (Some(probe), Some(Which::At(pixel))) = (&self.probe, self.options.pixel.pixel) {
             probe.frames(run, pixel)?;
             run.frames.clear();
+    fn has_result(&self) -> bool {
+        !self.options.are_none()
+    }
+
         }
         if let Some((control, values)) = &self.compared {
             self.comparison = Some(compare::of_run(run, control, values)?);
