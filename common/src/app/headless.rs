@@ -20,6 +20,10 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
     if args.list_controls {
         return run.list_controls();
     }
+    if args.list_records {
+        run.list_records()?;
+        return run.close();
+    }
     hooks.begin(&mut run)?;
     let mut animated = args.animate.then(|| Animated::begin(&mut run)).transpose()?;
     run.sample.changed(&run.gpu)?;

@@ -66,7 +66,7 @@ impl Program {
         if args.list_devices {
             return list_devices(&(self.requirements)());
         }
-        if args.headless || args.list_controls {
+        if args.headless || args.list_controls || args.list_records {
             headless::run(self, args, hooks)
         } else {
             window::open(self, args, hooks)
