@@ -62,9 +62,6 @@ impl Scene {
     pub fn check(&self) -> Result<Vec<String>> {
         let Model { meshes, materials, textures, .. } = &self.model;
         let mut warnings = Vec::new();
-        if self.instances.is_empty() {
-            warnings.push("the scene has no instances: every ray misses".to_owned());
-        }
         for mesh in meshes {
             warnings.extend(mesh.check()?);
             if mesh.material >= materials.len() {

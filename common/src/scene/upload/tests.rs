@@ -170,9 +170,3 @@ fn what_a_scene_seldom_means_is_a_warning() {
         ]
     );
 }
-
-#[test]
-fn a_scene_without_instances_is_a_warning() {
-    let empty = Scene { instances: Vec::new(), ..triangle() };
-    assert_eq!(empty.check().unwrap(), ["the scene has no instances: every ray misses"]);
-}
