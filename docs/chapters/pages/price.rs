@@ -45,19 +45,6 @@ pub fn check(project: &Project, page: &Page) -> Option<Fault> {
     Some(Fault::new(&*page.path, 1, format!("{name} has no price line"), remedy))
 }
 
-/// A row for each chapter that has a price line.
-pub fn table(project: &Project) -> String {
-    let mut text = "| chapter | exact here | price | without it |\n|---|---|---|---|\n".to_owned();
-    for chapter in &project.chapters {
-        let Ok(page) = project.read(&chapter.page()) else { continue };
-        let Some(parts) = parts(&Page::parse(&chapter.page(), &page)) else { continue };
-        let [exact, price, without] = parts.map(|part| part.replace('|', "\\|"));
-        let link = format!("[{}]({}.md)", chapter.heading(), chapter.name);
-        text.push_str(&format!("| {link} | {exact} | {price} | {without} |\n"));
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
