@@ -177,7 +177,11 @@ impl HardArguments {
 }
 
 /// Runs 24 and reads what it has written; its own error, if that is nothing.
-fn run<Answers: DeserializeOwned>(command: &mut Command, file: &Path, what: &str) -> Result<Answers> {
+fn run<Answers: DeserializeOwned>(
+    command: &mut Command,
+    file: &Path,
+    what: &str,
+) -> Result<Answers> {
     let ended = child::run_saying(command, Limit::NONE, what)?;
     let Ok(text) = std::fs::read_to_string(file) else {
         match (ended.refused(), ended.failed()) {
@@ -333,7 +337,8 @@ mod tests {
                 "unavailable": wrong.is_none().then_some("no rounding"),
             })
         };
-        let rungs = RUNGS.map(|(p, textbook, ours)| [row(p, textbook, Some(3)), row(p, ours, wrong)]);
+        let rungs =
+            RUNGS.map(|(p, textbook, ours)| [row(p, textbook, Some(3)), row(p, ours, wrong)]);
         let report = json!({
             "device": "D", "driver": "V", "rungs": rungs.concat(), "failures": [],
         });
@@ -347,9 +352,7 @@ mod tests {
                 "false_hits": wrong, "false_misses": 0, "not_finite": 0,
             })
         };
-        let rung = |label: &str, wrong: u64| {
-            json!({ "rung": label, "errors": [errors("near", 0), errors("far", wrong)] })
-        };
+        let rung = |label: &str, wrong: u64| json!({ "rung": label, "errors": [errors("near", 0), errors("far", wrong)] });
         let rungs = RUNGS.map(|(_, textbook, ours)| [rung(textbook, 2), rung(ours, wrong)]);
         serde_json::from_value(json!({ "rungs": rungs.concat() })).expect("rays")
     }

@@ -102,7 +102,8 @@ fn sums() -> Vec<Family> {
     let one = Draw { rays: 1, seed: 0 };
     let family = |name, value: f32, pattern| {
         let shape = Shape::Sum(Sum { value, n: 1 << 20, pattern });
-        let mut family = Family::new(name, vec![shape], one, &mut |_, _| (0, DVec3::ZERO, DVec3::Y));
+        let mut family =
+            Family::new(name, vec![shape], one, &mut |_, _| (0, DVec3::ZERO, DVec3::Y));
         family.is_traced = false;
         family
     };

@@ -13,10 +13,10 @@ use instruments::{Instruments, Options, check_files};
 use crate::atlas::{self, Extent, Traversal};
 use crate::disagreement::Disagreement;
 use crate::drawing::Drawing;
-use crate::ladder::Primitive;
-use crate::plot::Plot;
 use crate::families::Draw;
+use crate::ladder::Primitive;
 use crate::measure::Plan;
+use crate::plot::Plot;
 use crate::{Demo, hard, measure};
 
 /// Arguments of the laboratory, beside every sample's.
@@ -179,8 +179,7 @@ impl Lab {
     fn measure(&self, gpu: &Gpu, folder: &Path) -> Result<()> {
         let &Self { ref only, tops, rays, rounds, seed, rungs_alone, .. } = self;
         let draw = Draw { rays: rays.unwrap_or(RAYS) as usize, seed };
-        let measured =
-            measure::measure(gpu, &Plan { only, tops, rungs_alone, draw, rounds })?;
+        let measured = measure::measure(gpu, &Plan { only, tops, rungs_alone, draw, rounds })?;
         let save = |name: &str, bytes: &[u8]| write_whole(&folder.join(name), bytes);
         save("accuracy.json", (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;
         save("accuracy.md", measured.markdown().as_bytes())?;

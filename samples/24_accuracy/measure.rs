@@ -98,7 +98,11 @@ pub fn measure(gpu: &Gpu, plan: &Plan) -> Result<Measurement> {
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());
     let has_spheres = only.is_empty() || only.contains(&Primitive::Sphere);
-    let forms = if has_spheres && !tops && !rungs_alone { geometry::measure(gpu, rounds)? } else { Vec::new() };
+    let forms = if has_spheres && !tops && !rungs_alone {
+        geometry::measure(gpu, rounds)?
+    } else {
+        Vec::new()
+    };
     Ok(Measurement {
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),

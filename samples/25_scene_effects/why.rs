@@ -103,7 +103,8 @@ impl RunHooks for Table {
     fn begin(&mut self, run: &mut Run) -> Result<()> {
         let report = run.sample.report()?;
         let reasons: Vec<Reason> = serde_json::from_value(report["effects"].clone())?;
-        let (called_for, others): (Vec<_>, Vec<_>) = reasons.iter().partition(|reason| reason.needed);
+        let (called_for, others): (Vec<_>, Vec<_>) =
+            reasons.iter().partition(|reason| reason.needed);
         // The pipelines are made in this order: the scene's own, one for each row, and that with everything.
         let without = timed(run, "without", &called_for)?;
         let also = timed(run, "also", &others)?;
@@ -115,11 +116,13 @@ impl RunHooks for Table {
             .iter()
             .map(|reason| {
                 let same = |other: &&Reason| other.name == reason.name;
-                let place = called_for.iter().chain(&others).copied().position(|other| same(&other));
+                let place =
+                    called_for.iter().chain(&others).copied().position(|other| same(&other));
                 let with = place.and_then(|place| counts.get(1 + place));
                 let more = with.zip(counts.first()).map(|(with, own)| with - own);
                 let comparison = if reason.needed { &without } else { &also };
-                let cost = comparison.as_ref().and_then(|comparison| cost(comparison, &reason.name));
+                let cost =
+                    comparison.as_ref().and_then(|comparison| cost(comparison, &reason.name));
                 let sign = if reason.needed { -1.0 } else { 1.0 };
                 Row {
                     reason: reason.clone(),

@@ -90,7 +90,9 @@ impl PricesArguments {
                     the H200 traverses in software.";
         let tail = "The middle half of the rounds lies between the last two numbers. What is wrong without it: docs/prices.md";
         let (table, rounds) = (table(&rows, &lines), self.rounds);
-        print(&format!("{head}\n\nyours: {on} · {rounds} rounds · {seconds} s\n\n{table}\n{tail}\n"))
+        print(&format!(
+            "{head}\n\nyours: {on} · {rounds} rounds · {seconds} s\n\n{table}\n{tail}\n"
+        ))
     }
 }
 

@@ -86,7 +86,8 @@ mod tests {
     #[test]
     fn a_row_names_the_value_that_it_shows() {
         let of = |software: &str| {
-            let template = format!("| planes ([22](22.md)) | {software} | {{a/b.c.ratio}} | | why |");
+            let template =
+                format!("| planes ([22](22.md)) | {software} | {{a/b.c.ratio}} | | why |");
             Row::of(&template, "| planes ([22](22.md)) | 1.10 | 1.57 | | why |")
         };
         let expected = Row {

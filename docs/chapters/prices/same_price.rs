@@ -86,12 +86,7 @@ pub fn programs() -> [&'static str; TILES.len()] {
 ///
 /// # Errors
 /// If a program fails, or the file cannot be written.
-pub fn draw(
-    programs: &Programs,
-    rounds: u32,
-    device: Option<&str>,
-    file: &Path,
-) -> Result<String> {
+pub fn draw(programs: &Programs, rounds: u32, device: Option<&str>, file: &Path) -> Result<String> {
     let folder = NewFolder::temporary()?;
     let artist = Artist { programs, rounds, device, folder: folder.path() };
     let (mut rows, mut told) = ([Vec::new(), Vec::new()], String::new());
@@ -100,7 +95,9 @@ pub fn draw(
         let times = artist.times(tile)?;
         interrupt::asked()?;
         let names = ["textbook", "ours"];
-        for (((row, name), value), milliseconds) in rows.iter_mut().zip(names).zip(tile.values).zip(times) {
+        for (((row, name), value), milliseconds) in
+            rows.iter_mut().zip(names).zip(tile.values).zip(times)
+        {
             let picture = artist.picture(tile, &[&format!("{}={value}", tile.control)], 1)?;
             let wrong = wrong(&picture, &reference);
             let label = format!("{name}: {milliseconds:.1} ms, {wrong} wrong");
@@ -123,11 +120,11 @@ struct Artist<'a> {
 
 impl Artist<'_> {
     fn arguments(&self, tile: &Tile, more: &[&str], (width, height): (u32, u32)) -> Vec<String> {
-        let sets = tile.sets.iter().chain(more).flat_map(|set| ["--set", set]);
         let size = format!("{width}x{height}");
-        let fixed = ["--headless", "--size", &size];
-        let device = self.device.into_iter().flat_map(|device| ["--device", device]);
-        fixed.into_iter().chain(sets).chain(device).map(str::to_owned).collect()
+        let mut arguments = vec!["--headless", "--size", &size];
+        arguments.extend(tile.sets.iter().chain(more).flat_map(|set| ["--set", set]));
+        arguments.extend(self.device.into_iter().flat_map(|device| ["--device", device]));
+        arguments.into_iter().map(str::to_owned).collect()
     }
 
     /// A picture of a tile's size; rendered so many times wider and higher, and then each pixel the mean of a square.
@@ -152,7 +149,8 @@ impl Artist<'_> {
         let command = format!("cargo run --bin {} -- {}", tile.chapter, quoted(&arguments));
         let mut given = given::run(self.programs, &command)?;
         let (_, record) = given.pop_first().context("it gives nothing")?;
-        let [textbook, ours] = tile.values.map(|value| record.value(&format!("{}.ms", value.replace(' ', "-"))));
+        let [textbook, ours] =
+            tile.values.map(|value| record.value(&format!("{}.ms", value.replace(' ', "-"))));
         Ok([textbook.context("a time")?, ours.context("a time")?])
     }
 }

@@ -102,7 +102,9 @@ impl Timing<'_> {
             Some(frames) => arguments[frames] = self.rounds.to_string(),
             None => arguments.extend(["--frames".to_owned(), self.rounds.to_string()]),
         }
-        arguments.extend(self.device.into_iter().flat_map(|device| ["--device", device]).map(str::to_owned));
+        arguments.extend(
+            self.device.into_iter().flat_map(|device| ["--device", device]).map(str::to_owned),
+        );
         let bin = run.bin.as_deref().context("the command names no program")?;
         Ok(format!("cargo run --bin {bin} -- {}", quoted(&arguments)))
     }
@@ -175,7 +177,8 @@ mod tests {
         let programs = Programs::beside_this(&project).expect("a place");
         let timing =
             Timing { programs: &programs, stored: &Records::new(), rounds: 7, device: Some("H 2") };
-        let stored = "cargo run --bin 22_solids -- --headless --compare \"planes=8|16|a b\" --frames 20";
+        let stored =
+            "cargo run --bin 22_solids -- --headless --compare \"planes=8|16|a b\" --frames 20";
         let short = "cargo run --bin 22_solids -- --headless --compare \"planes=8|a b\" --frames 7 --device \"H 2\"";
         assert_eq!(timing.command(stored, &[&row("a-b")]).expect("a command"), short);
         assert!(timing.command("cargo test --test x", &[&row("a-b")]).is_err());
