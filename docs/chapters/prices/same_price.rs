@@ -56,7 +56,7 @@ const TILES: [Tile; 4] = [
     },
     Tile {
         chapter: "39_far_from_origin",
-        sets: &["camera eye=0,4.5,12", "camera target=-1,0.6,0", "field of view=12"],
+        sets: &["far=4000000", "camera eye=0,3.2,11", "camera target=0,2.3,0", "field of view=17"],
         control: "coordinates",
         values: ["world", "camera-relative"],
         reference: &["far=0", "coordinates=camera-relative"],
