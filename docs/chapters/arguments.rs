@@ -9,6 +9,8 @@ use common::UsageError;
 use instruments::arithmetic::Arithmetic;
 
 use crate::exercises::command::ExerciseArguments;
+use crate::hard::HardArguments;
+use crate::prices::command::PricesArguments;
 
 /// Shows any two chapters side by side, and keeps the book's pages true to the code
 #[derive(Debug, Parser)]
@@ -127,6 +129,11 @@ pub enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Run hard cases and random rays of a fresh seed by the textbook's formulas and by ours, on this device; exit code
+    /// 1 if ours is wrong once. About half a minute on a software driver
+    Hard(HardArguments),
+    /// Measure what accuracy costs on this device: the table of docs/prices.md with a column of yours, in about a minute
+    Prices(PricesArguments),
     /// Make a copy of the shaders, or of all code, with a classic mistake in it, and say how to run it
     Mistake {
         /// Its name, as --list shows it

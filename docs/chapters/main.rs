@@ -10,6 +10,8 @@
 //! - `measure`: runs what gave the pages' values, and fills those in
 //! - `verify`: runs the commands of pictures, mistakes and values again, and compares
 //! - `merge OUT FILE…`: adds the sums that parts of a long render have saved
+//! - `hard`: runs hard cases and random rays by the textbook's formulas and ours
+//! - `prices`: measures what accuracy costs on this device, the table of `docs/prices.md`
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `book`: makes a website of the pages
 //! - `tour`: makes the README's moving picture
@@ -20,7 +22,7 @@
 //! The rooms, each of which knows only those below it:
 //!
 //! - [`pages`]: what stands on them, and whether it is so
-//! - [`exercises`], [`values`], [`mistakes`], [`survey`]: what pages show of each, and its commands
+//! - [`exercises`], [`values`], [`mistakes`], [`survey`], [`prices`]: what pages show of each, and its commands
 //! - [`patches`], [`pictures`]: changed editions of the code; what is rendered
 //! - [`programs`]: what is run
 
@@ -28,6 +30,7 @@ mod arguments;
 mod chapter_list;
 mod comparison;
 mod exercises;
+mod hard;
 mod merge;
 mod mistakes;
 mod new_chapter;
@@ -35,6 +38,7 @@ mod nightly;
 mod pages;
 mod patches;
 mod pictures;
+mod prices;
 mod programs;
 mod start;
 mod survey;
@@ -115,6 +119,8 @@ fn run(arguments: &Arguments) -> Result<()> {
             let survey = Survey { programs: &programs, device: device.as_deref(), limit, atlas };
             if *list { print(&survey.list()) } else { survey.run(out) }
         }
+        Command::Hard(arguments) => arguments.run(&project),
+        Command::Prices(arguments) => arguments.run(&project),
         Command::Mistake { name, list, out, check } => {
             mistakes::command::run(&project, name.as_deref(), *list, out.as_deref(), *check)
         }

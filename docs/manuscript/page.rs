@@ -46,15 +46,13 @@ pub enum Kind {
     Exercises,
     /// Which devices gave the page's figures, and when: `stamp`.
     Stamp,
-    /// Every chapter's price line: `prices`.
-    Prices,
     /// Measured values, by the page's template of this name: `table NAME`.
     Table,
 }
 
 impl Kind {
     /// Each with the word in its marker, what a reader would call it, and the marker's form.
-    const ALL: [(Self, &str, &str, &str); 12] = [
+    const ALL: [(Self, &str, &str, &str); 11] = [
         (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
         (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
         (Self::Controls, "controls", "table of controls", "NN_name -->"),
@@ -65,7 +63,6 @@ impl Kind {
         (Self::Symptoms, "symptoms", "table of symptoms", "-->"),
         (Self::Exercises, "exercises", "list of exercises", "NN_name -->"),
         (Self::Stamp, "stamp", "stamp", "-->"),
-        (Self::Prices, "prices", "table of prices", "-->"),
         (Self::Table, "table", "table of values", "NAME -->"),
     ];
 

@@ -16,6 +16,22 @@ use crate::query::Ray;
 use crate::shape::{Pattern, Shape, Sum};
 use truth::Truth;
 
+/// The number of rays of each family, and the seed that they are drawn from.
+#[derive(Clone, Copy, Debug)]
+pub struct Draw {
+    pub rays: usize,
+    /// 0 draws the rays of all stored figures.
+    pub seed: u64,
+}
+
+impl Draw {
+    /// Random numbers of one purpose: others for each seed, and for each `number`.
+    fn random(self, number: u64) -> Random {
+        // An odd factor spreads neighbouring seeds over all bits.
+        Random(number ^ self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+    }
+}
+
 /// Rays at shapes of one primitive.
 pub struct Family {
     pub name: &'static str,
@@ -31,32 +47,32 @@ pub struct Family {
 pub type Make<'a> = dyn FnMut(&mut Random, usize) -> (usize, DVec3, DVec3) + 'a;
 
 impl Family {
-    /// Every family of a primitive, `rays` rays each. The first is the rung's home ground, the one
+    /// Every family of a primitive. The first is the rung's home ground, the one
     /// that is timed.
-    pub fn of(primitive: Primitive, rays: usize) -> Vec<Self> {
+    pub fn of(primitive: Primitive, draw: Draw) -> Vec<Self> {
         match primitive {
-            Primitive::Sphere => smooth::spheres(rays),
-            Primitive::Box => flat::boxes(rays),
-            Primitive::Plane => flat::planes(rays),
-            Primitive::Triangle => flat::triangles(rays),
-            Primitive::Capsule => smooth::capsules(rays),
-            Primitive::Instance => smooth::instances(rays),
-            Primitive::Heightfield => smooth::heightfields(rays),
-            Primitive::SecondaryOrigin => departures::departures(rays),
+            Primitive::Sphere => smooth::spheres(draw),
+            Primitive::Box => flat::boxes(draw),
+            Primitive::Plane => flat::planes(draw),
+            Primitive::Triangle => flat::triangles(draw),
+            Primitive::Capsule => smooth::capsules(draw),
+            Primitive::Instance => smooth::instances(draw),
+            Primitive::Heightfield => smooth::heightfields(draw),
+            Primitive::SecondaryOrigin => departures::departures(draw),
             Primitive::Accumulation => sums(),
         }
     }
 
     /// `make` says which shape, where a ray begins and where it goes, all in f64.
-    pub fn new(name: &'static str, shapes: Vec<Shape>, count: usize, make: &mut Make) -> Self {
+    pub fn new(name: &'static str, shapes: Vec<Shape>, draw: Draw, make: &mut Make) -> Self {
         // Each family has its own numbers, whatever other families there are.
         let seed = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
-        let mut random = Random(seed);
+        let mut random = draw.random(seed);
         let truth = Truth::new(&shapes);
         let (mut rays, mut expected) = (Vec::new(), Vec::new());
-        for number in 0..count {
+        for number in 0..draw.rays {
             let (shape, origin, direction) = make(&mut random, number);
             let (origin, direction) = (origin.as_vec3(), direction.as_vec3());
             let ray = Ray { origin, direction, tmin: 0.0, tmax: 1e30 };
@@ -83,9 +99,11 @@ fn from_afar(random: &mut Random, distance: f64) -> (DVec3, DVec3) {
 }
 
 fn sums() -> Vec<Family> {
+    let one = Draw { rays: 1, seed: 0 };
     let family = |name, value: f32, pattern| {
         let shape = Shape::Sum(Sum { value, n: 1 << 20, pattern });
-        let mut family = Family::new(name, vec![shape], 1, &mut |_, _| (0, DVec3::ZERO, DVec3::Y));
+        let mut family =
+            Family::new(name, vec![shape], one, &mut |_, _| (0, DVec3::ZERO, DVec3::Y));
         family.is_traced = false;
         family
     };

@@ -9,7 +9,7 @@ use reference::sphere::Sphere;
 use serde::Serialize;
 
 use crate::batch::Batch;
-use crate::families::Family;
+use crate::families::{Draw, Family};
 use crate::ladder::{Primitive, Rung};
 use crate::measure::tally;
 use crate::measurement::Errors;
@@ -56,7 +56,8 @@ impl Live {
             directions.retain(|direction| leaves(camera.eye, *direction));
         }
         let make = &mut |_: &mut _, number: usize| (0, camera.eye, directions[number]);
-        let family = Family::new("the view", vec![specimen.shape()], directions.len(), make);
+        let draw = Draw { rays: directions.len(), seed: 0 };
+        let family = Family::new("the view", vec![specimen.shape()], draw, make);
         let batch = Batch::new(gpu, &family.shapes, &family.rays, false)?;
         Ok(Self { specimen, family, batch, found: Vec::new() })
     }

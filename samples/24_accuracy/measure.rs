@@ -10,11 +10,11 @@ use reference::ulp::ulp_error;
 
 use crate::batch::Batch;
 use crate::compiled;
-use crate::families::Family;
+use crate::families::{Draw, Family};
 use crate::geometry;
 use crate::judge::ExpectedHit;
 use crate::ladder::{Code, Primitive, Rung};
-use crate::measurement::{Errors, March, MeasuredRung, Measurement, Time};
+use crate::measurement::{Errors, FAR_OFF, March, MeasuredRung, Measurement, Time};
 use crate::probe::{Instrument, Load, Probe, Way};
 use crate::query::Answer;
 
@@ -30,18 +30,25 @@ const MOST_REPEATS_ON_A_GPU: u32 = 16;
 const MOST_COPIES: u32 = 1024;
 const MOST_ASKED: u32 = 1 << 24;
 
-/// Measures every rung of these primitives (of all if there are none), or those that must be right, on
-/// `rays` rays a family, and times it over `rounds` rounds.
+/// What to measure.
+pub struct Plan<'a> {
+    /// Rungs of these primitives; of all if there are none.
+    pub only: &'a [Primitive],
+    /// Those alone that must be right.
+    pub tops: bool,
+    /// Neither a GPU compiler's estimates nor the sphere's meshes.
+    pub rungs_alone: bool,
+    pub draw: Draw,
+    /// Rounds of timing.
+    pub rounds: u32,
+}
+
+/// Measures what is planned: errors of every rung, then times.
 ///
 /// # Errors
 /// If the device fails.
-pub fn measure(
-    gpu: &Gpu,
-    only: &[Primitive],
-    tops: bool,
-    rays: usize,
-    rounds: u32,
-) -> Result<Measurement> {
+pub fn measure(gpu: &Gpu, plan: &Plan) -> Result<Measurement> {
+    let &Plan { only, tops, rungs_alone, draw, rounds } = plan;
     let probe = Probe::new(gpu)?;
     let mut rungs = Vec::new();
     let chosen: Vec<Primitive> = Primitive::ALL
@@ -49,10 +56,10 @@ pub fn measure(
         .filter(|primitive| only.is_empty() || only.contains(primitive))
         .collect();
     let steps: usize = chosen.iter().map(|p| p.ladder().len()).sum();
-    let families = compiled::FAMILIES.len();
+    let families = if rungs_alone { 0 } else { compiled::FAMILIES.len() };
     let mut progress = Progress::new((2 * steps + families) as u64, "steps");
     for primitive in chosen {
-        let families = Family::of(primitive, rays);
+        let families = Family::of(primitive, draw);
         let batches = families
             .iter()
             .map(|family| Batch::new(gpu, &family.shapes, &family.rays, family.is_traced));
@@ -81,7 +88,9 @@ pub fn measure(
         }
         rungs.extend(measured);
     }
-    let no_compiler = if gpu.driver_shim.name() != "driver" {
+    let no_compiler = if rungs_alone {
+        Some(String::from("not asked for"))
+    } else if gpu.driver_shim.name() != "driver" {
         Some(String::from("no GPU computes as badly as it may"))
     } else {
         compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}"))
@@ -89,14 +98,19 @@ pub fn measure(
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());
     let has_spheres = only.is_empty() || only.contains(&Primitive::Sphere);
-    let forms = if has_spheres && !tops { geometry::measure(gpu, rounds)? } else { Vec::new() };
+    let forms = if has_spheres && !tops && !rungs_alone {
+        geometry::measure(gpu, rounds)?
+    } else {
+        Vec::new()
+    };
     Ok(Measurement {
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
         arithmetic: gpu.driver_shim.name().to_owned(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
         fused: probe.fused,
-        rays,
+        rays: draw.rays,
+        seed: draw.seed,
         rounds,
         compiler,
         no_compiler,
@@ -178,7 +192,8 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
         let last = ulps.len().saturating_sub(1) as f64;
         ulps.get((part * last).round() as usize).copied().unwrap_or_default()
     };
-    Errors { p50: at(0.5), p99: at(0.99), max: at(1.0), ..errors }
+    let far_off = ulps.iter().filter(|&&ulp| ulp > FAR_OFF).count();
+    Errors { p50: at(0.5), p99: at(0.99), max: at(1.0), far_off, ..errors }
 }
 
 /// The repetitions of each query for a launch that is worth timing, and the cheapest rung.

@@ -22,6 +22,8 @@ pub struct Measurement {
     pub fused: bool,
     /// Rays of each family.
     pub rays: usize,
+    /// The seed that they were drawn from; 0 for those of the stored figures.
+    pub seed: u64,
     /// Rounds of each timing; 0 for errors alone.
     pub rounds: u32,
     /// The GPU compiler of the estimates, with its version.
@@ -58,6 +60,9 @@ pub struct MeasuredRung {
     pub desc: Option<PipelineDesc>,
 }
 
+/// An error in ULP that shows: a ten-thousandth of t is 839 to 1678 of them.
+pub const FAR_OFF: f64 = 1000.0;
+
 /// Errors of a rung on a family.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Errors {
@@ -68,6 +73,8 @@ pub struct Errors {
     pub p50: f64,
     pub p99: f64,
     pub max: f64,
+    /// Of these, errors of more than [`FAR_OFF`].
+    pub far_off: usize,
     pub false_hits: usize,
     pub false_misses: usize,
     /// Hits that the device's box test kept from the shader; no false misses.

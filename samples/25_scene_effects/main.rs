@@ -13,6 +13,7 @@ mod report;
 mod scenes;
 #[path = "../21_heightfield/shape.rs"]
 mod shape;
+mod why;
 mod world;
 
 use std::path::PathBuf;
@@ -31,10 +32,15 @@ use glam::Vec3;
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
 use serde_json::Value;
+use why::Why;
 use world::World;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
+    common::exit::finish(|| {
+        let name = env!("CARGO_BIN_NAME");
+        let (args, options, why) = instruments::parse_with::<Why>(name)?;
+        why.start(name, args, options)
+    })
 }
 
 const PIPELINE_EVERYTHING: u32 = 1;
@@ -53,6 +59,7 @@ struct Demo {
     number: u32,
     pipeline: u32,
     without: u32,
+    also: u32,
     measure: bool,
     light: u32,
     material: u32,
@@ -95,6 +102,7 @@ impl Sample for Demo {
             number,
             pipeline: 0,
             without: 0,
+            also: 0,
             measure: false,
             light: 1,
             material: 0,
@@ -111,6 +119,7 @@ impl Sample for Demo {
         c.one_of("pipeline", &mut self.pipeline, &["specialised", "everything"]);
         let names = [&["nothing"], Effect::LAYOUT.words].concat();
         c.one_of("without", &mut self.without, &names);
+        c.one_of("also", &mut self.also, &names);
         c.checkbox("measure costs", &mut self.measure);
         c.integer("samples", &mut self.scene.samples, 1..=64);
         c.integer("depth", &mut self.scene.depth, 0..=32);
@@ -201,8 +210,12 @@ impl Demo {
             PIPELINE_EVERYTHING => Recipe::everything(),
             _ => Recipe::specialised(&self.scene, needed(&self.findings())),
         };
-        if let Some(&left_out) = Effect::ALL.get((self.without as usize).wrapping_sub(1)) {
+        let chosen = |number: u32| Effect::ALL.get((number as usize).wrapping_sub(1)).copied();
+        if let Some(left_out) = chosen(self.without) {
             recipe.effects = recipe.effects.without(left_out);
+        }
+        if let Some(put_in) = chosen(self.also) {
+            recipe.effects = recipe.effects.with(put_in);
         }
         recipe
     }

@@ -3,11 +3,13 @@
 mod author;
 mod exercises;
 mod fixture;
+mod hard;
 mod merge;
 mod mistakes;
 mod named;
 mod new;
 mod nightly;
+mod prices;
 mod stale;
 mod start;
 mod survey;

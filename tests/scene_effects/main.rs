@@ -6,6 +6,7 @@ mod generated;
 mod light;
 mod lines;
 mod plots;
+mod why;
 
 use std::collections::BTreeSet;
 use std::path::Path;

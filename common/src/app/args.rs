@@ -25,6 +25,10 @@ pub struct Args {
     #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size, allow_hyphen_values = true)]
     pub size: vk::Extent2D,
 
+    /// True if --size was given
+    #[arg(skip)]
+    pub size_given: bool,
+
     /// Frames to render; the last one is the picture. If given, a window closes after that many
     #[arg(long, value_name = "N", default_value = "1", value_parser = frames, allow_hyphen_values = true)]
     pub frames: u32,
@@ -115,7 +119,9 @@ impl Args {
         let parsed = matches.and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
             args.device = args.device.or_else(|| named_device().map(str::to_owned));
-            args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
+            let is_given = |name| matches.value_source(name) == Some(ValueSource::CommandLine);
+            args.frames_given = is_given("frames");
+            args.size_given = is_given("size");
             Ok((args, matches))
         });
         let (args, matches) = parsed.map_err(|error| usage_error(&error))?;

@@ -8,7 +8,7 @@ use manuscript::project::Project;
 use manuscript::shader;
 use similar::{DiffOp, group_diff_ops};
 
-use super::{gallery, map, price};
+use super::{gallery, map};
 use crate::exercises::exercise;
 use crate::mistakes::mistake;
 use crate::programs::own_program;
@@ -73,9 +73,6 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
             let (stored, _) = Record::all(programs.project);
             let text = table::body(programs.project, page, block.line, name, &stored)?;
             Ok((text, table::file(page)))
-        }
-        (Kind::Prices, []) => {
-            Ok((price::table(programs.project), "the chapters' pages".to_owned()))
         }
         (Kind::Map, ["ways"]) => Ok((map::ways(programs.project), "Cargo.toml".to_owned())),
         (Kind::Map, ["chapters"]) => Ok((map::chapters(programs.project), "Cargo.toml".to_owned())),

@@ -1,8 +1,10 @@
 //! The price line of a chapter: what is exact there, what that costs, and how much is wrong without it.
 //!
-//! It stands below the heading picture, above the first section:
+//! A page need not have one. It opens the section about accuracy, near the end:
 //!
 //! ````markdown
+//! ## What accuracy costs here
+//!
 //! > **Exact:** where a shadow ray starts. **Price:** no time: a frame takes 1.00 times as long. **Without it:**
 //! > 26,950<!-- acne.dark --> of 59,050<!-- acne.lit --> lit pixels go dark.
 //! ````
@@ -11,51 +13,50 @@ use manuscript::fault::Fault;
 use manuscript::page::Page;
 use manuscript::project::Project;
 
-use crate::values::binding::stripped;
-
 /// The words before each part, in order.
 const LABELS: [&str; 3] = ["**Exact:**", "**Price:**", "**Without it:**"];
 
-/// The parts of a page's price line, if it has one: it begins above the first section.
-fn parts(page: &Page) -> Option<[String; 3]> {
-    let head = page.prose().into_iter().map(|(_, line)| line);
-    let head = head.take_while(|line| !line.starts_with("## "));
-    let quoted: Vec<&str> = head.filter_map(|line| line.strip_prefix("> ")).collect();
-    // What binds a number names values of this page, and the table of prices stands on another.
-    let text = stripped(&quoted.join(" "));
-    let [exact, price, without] = LABELS.map(|label| text.find(label));
-    let part = |from: usize, label: &str, to: usize| {
-        text.get(from + label.len()..to).map(|part| part.trim().to_owned())
-    };
-    let (exact, price, without) = (exact?, price?, without?);
-    let parts = [
-        part(exact, LABELS[0], price)?,
-        part(price, LABELS[1], without)?,
-        part(without, LABELS[2], text.len())?,
-    ];
-    parts.iter().all(|part| !part.is_empty()).then_some(parts)
-}
+/// The heading of the section that it opens.
+const SECTION: &str = "## What accuracy costs here";
 
-/// The faults of the price line of a chapter's page.
+/// The fault of the price line of a chapter's page, if it has one.
 pub fn check(project: &Project, page: &Page) -> Option<Fault> {
-    let name = page.stem();
-    project.of_page(&page.path).filter(|_| parts(page).is_none())?;
-    let remedy =
-        format!("write `> {} … {} … {} …` below the picture", LABELS[0], LABELS[1], LABELS[2]);
-    Some(Fault::new(&*page.path, 1, format!("{name} has no price line"), remedy))
+    project.of_page(&page.path)?;
+    let (line, what, remedy) = wrong(page)?;
+    Some(Fault::new(&*page.path, line, what, remedy))
 }
 
-/// A row for each chapter that has a price line.
-pub fn table(project: &Project) -> String {
-    let mut text = "| chapter | exact here | price | without it |\n|---|---|---|---|\n".to_owned();
-    for chapter in &project.chapters {
-        let Ok(page) = project.read(&chapter.page()) else { continue };
-        let Some(parts) = parts(&Page::parse(&chapter.page(), &page)) else { continue };
-        let [exact, price, without] = parts.map(|part| part.replace('|', "\\|"));
-        let link = format!("[{}]({}.md)", chapter.heading(), chapter.name);
-        text.push_str(&format!("| {link} | {exact} | {price} | {without} |\n"));
+/// The line of a price line that is wrong, what it is, and the remedy.
+fn wrong(page: &Page) -> Option<(usize, &'static str, String)> {
+    let prose = page.prose();
+    let is_part = |line: &str| line.starts_with("> ") && LABELS.iter().any(|l| line.contains(l));
+    let first = prose.iter().position(|(_, line)| is_part(line))?;
+    let line = prose[first].0;
+    let above = prose[..first].iter().rev().map(|(_, line)| line.trim());
+    if above.into_iter().find(|line| !line.is_empty()) != Some(SECTION) {
+        return Some((
+            line,
+            "the price line stands elsewhere",
+            format!("move it below '{SECTION}'"),
+        ));
     }
-    text
+    let quoted = prose[first..].iter().map_while(|(_, line)| line.strip_prefix("> "));
+    let text = quoted.collect::<Vec<_>>().join(" ");
+    let form = format!("write `> {} … {} … {} …`", LABELS[0], LABELS[1], LABELS[2]);
+    (!is_whole(&text)).then_some((line, "the price line lacks a part", form))
+}
+
+/// Tests whether all parts are there, in order, and none is empty.
+fn is_whole(text: &str) -> bool {
+    let mut rest = text;
+    let mut parts = Vec::new();
+    for label in LABELS {
+        let Some((before, behind)) = rest.split_once(label) else { return false };
+        parts.push(before.trim());
+        rest = behind;
+    }
+    parts.push(rest.trim());
+    parts[0].is_empty() && parts[1..].iter().all(|part| !part.is_empty())
 }
 
 #[cfg(test)]
@@ -63,16 +64,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_price_line_has_three_parts_above_the_first_section() {
-        let line =
+    fn a_price_line_has_three_parts_and_opens_its_section() {
+        let of = |text: &str| wrong(&Page::parse("p.md", text)).map(|(line, what, _)| (line, what));
+        let whole =
             "> **Exact:** the start. **Price:** 1.00 times\n> a frame. **Without it:** acne.\n";
-        let of = |text: String| parts(&Page::parse("p.md", &text));
-        let expected = ["the start.", "1.00 times a frame.", "acne."].map(str::to_owned);
-        assert_eq!(of(format!("# T\n\n{line}\n## S\n")), Some(expected));
-        assert_eq!(of(format!("# T\n\n## S\n{line}")), None);
-        for label in LABELS {
-            assert_eq!(of(format!("# T\n\n{}", line.replace(label, ""))), None, "{label}");
+        assert_eq!(of(&format!("# T\n\n{SECTION}\n\n{whole}\nMore.\n")), None);
+        assert_eq!(of("# T\n\n## S\n"), None);
+        let elsewhere = Some((3, "the price line stands elsewhere"));
+        assert_eq!(of(&format!("# T\n\n{whole}\n{SECTION}\n")), elsewhere);
+        let lacks = Some((5, "the price line lacks a part"));
+        for label in &LABELS[1..] {
+            let part = whole.replace(label, "");
+            assert_eq!(of(&format!("# T\n\n{SECTION}\n\n{part}")), lacks, "{label}");
         }
-        assert_eq!(of("# T\n\n> **Exact:** **Price:** a **Without it:** b\n".to_owned()), None);
+        let empty = "> **Exact:** **Price:** a **Without it:** b\n";
+        assert_eq!(of(&format!("# T\n\n{SECTION}\n\n{empty}")), lacks);
     }
 }

@@ -9,5 +9,6 @@ pub mod controls;
 pub mod interrupt;
 pub mod own_program;
 pub mod program;
+pub mod ready;
 pub mod run_result;
 pub mod test;

@@ -11,8 +11,9 @@
 //! ```
 //!
 //! `{MEASUREMENT.VALUE:0.00}` is a stored value, written like the number behind the colon; without one, with as many
-//! digits as a reader needs. A row whose head is `{A; B}` stands for one row each: `*` is the head, with hyphens for
-//! blanks, and a value that is not stored leaves its cell empty. `{*}` stands for all stored names.
+//! digits as a reader needs; `{1/MEASUREMENT.VALUE}` is its inverse. A row whose head is `{A; B}` stands for one row
+//! each: `*` is the head, with hyphens for blanks, and a value that is not stored leaves its cell empty. `{*}` stands
+//! for all stored names.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -28,7 +29,7 @@ use super::record::{FOLDER, Records};
 
 /// A value in a template: measurement, value, and a number that shows its format.
 static VALUE: LazyLock<Regex> = LazyLock::new(|| {
-    let pattern = r"\{([\w-]+(?:/[\w-]+)?)\.([^{}|]+?)(?::([\d.,e-]+))?\}";
+    let pattern = r"\{(?:1/)?([\w-]+(?:/[\w-]+)?)\.([^{}|]+?)(?::([\d.,e-]+))?\}";
     Regex::new(pattern).expect("the pattern is right")
 });
 
@@ -53,6 +54,12 @@ fn templates(project: &Project, page: &Page) -> Vec<(usize, String, String)> {
         }
     }
     found
+}
+
+/// The template of a page's table.
+pub fn template(project: &Project, page: &Page, name: &str) -> Option<String> {
+    let mut templates = templates(project, page).into_iter();
+    templates.find(|(_, known, _)| known == name).map(|(.., template)| template)
 }
 
 /// The table of this name, for a marker on this line of a page.
@@ -143,6 +150,7 @@ fn written(
         rest = &rest[all.end..];
         match value(stored, &whole_name(page, &found[1]), &found[2]) {
             Ok(value) => {
+                let value = if found[0].starts_with("{1/") { 1.0 / value } else { value };
                 let sample = found.get(3).map_or_else(|| format(value), |sample| sample.as_str());
                 let shown = format!("{text}{sample}{rest}");
                 let place = text.len()..text.len() + sample.len();

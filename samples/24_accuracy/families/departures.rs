@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use reference::random::{Random, f32s};
 use reference::sphere;
 
-use super::{Family, on_disc};
+use super::{Draw, Family, on_disc};
 use crate::query::Ray;
 use crate::shape::{Gap, Leaving, Shape};
 
@@ -31,12 +31,12 @@ fn leaving(
     Some(Shape::Leaving(Leaving { center, radius, direction, gap: None }))
 }
 
-pub fn departures(count: usize) -> Vec<Family> {
+pub fn departures(draw: Draw) -> Vec<Family> {
     // Each ray has a sphere of its own, and a camera somewhere that sees it.
     let family = |name, make: &dyn Fn(&mut Random) -> (sphere::Sphere, f64, f64)| {
-        let mut random = Random(13);
+        let mut random = draw.random(13);
         let (mut shapes, mut rays) = (Vec::new(), Vec::new());
-        while rays.len() < count {
+        while rays.len() < draw.rays {
             let (sphere, distance, speed) = make(&mut random);
             let axis = random.unit();
             let origin = f32s(sphere.center + axis * (distance * sphere.radius));
@@ -47,7 +47,7 @@ pub fn departures(count: usize) -> Vec<Family> {
                 rays.push((origin, direction));
             }
         }
-        let mut family = Family::new(name, shapes, count, &mut |_, number| {
+        let mut family = Family::new(name, shapes, draw, &mut |_, number| {
             (number, rays[number].0, rays[number].1)
         });
         family.is_traced = false;
@@ -65,7 +65,7 @@ pub fn departures(count: usize) -> Vec<Family> {
     };
     // A plane so many units in the last place above the top of a sphere.
     let gap = |name, radius: f32, units: f32| {
-        let mut random = Random(17);
+        let mut random = draw.random(17);
         let make = |_| {
             let center = Vec3::new(0.0, random.between(-4.0, 4.0) as f32 * radius, 0.0);
             let top = center.y + radius;
@@ -79,9 +79,9 @@ pub fn departures(count: usize) -> Vec<Family> {
             let direction = Vec3::new(random.between(-0.5, 0.5) as f32, 1.0, 0.0);
             Shape::Leaving(Leaving { center, radius, direction, gap: Some(gap) })
         };
-        let shapes: Vec<Shape> = (0..count).map(make).collect();
+        let shapes: Vec<Shape> = (0..draw.rays).map(make).collect();
         let mut family =
-            Family::new(name, shapes, count, &mut |_, number| (number, DVec3::ZERO, DVec3::Y));
+            Family::new(name, shapes, draw, &mut |_, number| (number, DVec3::ZERO, DVec3::Y));
         family.is_traced = false;
         family
     };

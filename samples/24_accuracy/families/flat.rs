@@ -3,13 +3,13 @@
 use glam::{DVec3, Vec3};
 use reference::random::{Random, f32s};
 
-use super::{Family, on_disc};
+use super::{Draw, Family, on_disc};
 use crate::shape::Shape;
 
-pub fn boxes(count: usize) -> Vec<Family> {
+pub fn boxes(draw: Draw) -> Vec<Family> {
     let unit = || vec![Shape::Box { low: Vec3::NEG_ONE, high: Vec3::ONE }];
     let afar = |name, distance| {
-        Family::new(name, unit(), count, &mut move |random, _| {
+        Family::new(name, unit(), draw, &mut move |random, _| {
             let axis = random.unit();
             let origin = f32s(axis * distance);
             (0, origin, (on_disc(random, DVec3::ZERO, axis, 1.6) - origin).normalize())
@@ -30,21 +30,21 @@ pub fn boxes(count: usize) -> Vec<Family> {
     let inside = &mut |random: &mut Random, _| (0, f32s(random.in_cube() * 0.99), random.unit());
     vec![
         afar("box from 10", 10.0),
-        Family::new("box along a wall", unit(), count, wall),
+        Family::new("box along a wall", unit(), draw, wall),
         afar("box from 1e4", 1e4),
-        Family::new("box from inside", unit(), count, inside),
+        Family::new("box from inside", unit(), draw, inside),
     ]
 }
 
-pub fn planes(count: usize) -> Vec<Family> {
+pub fn planes(draw: Draw) -> Vec<Family> {
     const PLANES: usize = 16;
     // Sixteen planes of any normal, the camera at some height above a point near the foot of each.
     let family = |name, distance: f64, sine: fn(&mut Random) -> f64| {
-        let mut random = Random(7);
+        let mut random = draw.random(7);
         let normals: Vec<DVec3> =
             (0..PLANES).map(|_| f32s(random.unit() * random.scale(0.1, 10.0))).collect();
         let plane = |n: &DVec3| Shape::Plane { normal: n.as_vec3(), distance: distance as f32 };
-        Family::new(name, normals.iter().map(plane).collect(), count, &mut |random, number| {
+        Family::new(name, normals.iter().map(plane).collect(), draw, &mut |random, number| {
             let shape = number % PLANES;
             let n = normals[shape].normalize();
             let height = random.between(0.5, 2.0);
@@ -83,12 +83,12 @@ fn ball(n: usize) -> Vec<[Vec3; 3]> {
     cells.flat_map(quad).collect()
 }
 
-pub fn triangles(count: usize) -> Vec<Family> {
+pub fn triangles(draw: Draw) -> Vec<Family> {
     let mesh = ball(16);
     let shapes = || vec![Shape::Triangles(mesh.clone())];
     // Aimed at a point of a triangle: inside it, on an edge, or at a corner.
     let aimed = |name, weights: fn(&mut Random) -> [f64; 3]| {
-        Family::new(name, shapes(), count, &mut |random, _| {
+        Family::new(name, shapes(), draw, &mut |random, _| {
             let triangle = mesh[random.below(mesh.len())];
             let w = weights(random);
             let target: DVec3 = (0..3).map(|k| triangle[k].as_dvec3() * w[k]).sum();
@@ -107,18 +107,18 @@ pub fn triangles(count: usize) -> Vec<Family> {
             [1.0 - a, a, 0.0]
         }),
         aimed("triangles at corners", |_| [1.0, 0.0, 0.0]),
-        far_ball(count),
-        far_plane(count),
+        far_ball(draw),
+        far_plane(draw),
     ]
 }
 
 /// A ball of radius 2 far from the origin, seen from close by: none of the rays at it may pass through.
 /// The place is that of Embree's WatertightTest (`verify.cpp`).
-fn far_ball(count: usize) -> Family {
+fn far_ball(draw: Draw) -> Family {
     let center = DVec3::new(148_376.0, 1234.0, -223_423.0);
     let moved = |v: Vec3| (v.as_dvec3() * 2.0 + center).as_vec3();
     let mesh: Vec<_> = ball(16).into_iter().map(|triangle| triangle.map(moved)).collect();
-    Family::new("triangles far away", vec![Shape::Triangles(mesh)], count, &mut |random, _| {
+    Family::new("triangles far away", vec![Shape::Triangles(mesh)], draw, &mut |random, _| {
         let origin = f32s(center + random.unit() * 6.0);
         (0, origin, f32s(center + random.in_cube()) - origin)
     })
@@ -126,7 +126,7 @@ fn far_ball(count: usize) -> Family {
 
 /// A plane of triangles as far away, seen from 3 in front of its middle at a slant: after the other half of
 /// Embree's WatertightTest.
-fn far_plane(count: usize) -> Family {
+fn far_plane(draw: Draw) -> Family {
     const CELLS: usize = 16;
     const AT: f64 = 148_376.0;
     let corner = |i: usize, j: usize| {
@@ -149,7 +149,7 @@ fn far_plane(count: usize) -> Family {
     Family::new(
         "triangles of a far plane",
         vec![Shape::Triangles(mesh)],
-        count,
+        draw,
         &mut |random, number| {
             // At an edge or a corner, as well as rounding allows.
             let triangle = inner[random.below(inner.len())];

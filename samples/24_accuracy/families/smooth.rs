@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3, Vec3};
 use reference::random::{Random, f32s};
 
-use super::{Family, from_afar, on_disc};
+use super::{Draw, Family, from_afar, on_disc};
 use crate::shape::{Heightfield, Shape, parts};
 
-pub fn spheres(count: usize) -> Vec<Family> {
+pub fn spheres(draw: Draw) -> Vec<Family> {
     let unit = || vec![Shape::Sphere { center: Vec3::ZERO, radius: 1.0 }];
     let afar = |name, distance| {
-        Family::new(name, unit(), count, &mut move |random, _| {
+        Family::new(name, unit(), draw, &mut move |random, _| {
             let (origin, direction) = from_afar(random, distance);
             (0, origin, direction)
         })
@@ -43,18 +43,18 @@ pub fn spheres(count: usize) -> Vec<Family> {
         afar("sphere from 10 radii", 10.0),
         afar("sphere from 1e3 radii", 1e3),
         afar("sphere from 1e6 radii", 1e6),
-        Family::new("sphere nearly grazed", unit(), count, tangent),
-        Family::new("sphere of 1e-4 from 1e4", small, count, tiny),
-        Family::new("planet of 1e6 from 1 above", world, count, planet),
-        Family::new("sphere from inside", unit(), count, inside),
+        Family::new("sphere nearly grazed", unit(), draw, tangent),
+        Family::new("sphere of 1e-4 from 1e4", small, draw, tiny),
+        Family::new("planet of 1e6 from 1 above", world, draw, planet),
+        Family::new("sphere from inside", unit(), draw, inside),
     ]
 }
 
-pub fn capsules(count: usize) -> Vec<Family> {
+pub fn capsules(draw: Draw) -> Vec<Family> {
     let (a, b) = (Vec3::NEG_X, Vec3::X);
     let afar = |name, distance| {
         let shapes = vec![Shape::Capsule { a, b, radius: 0.5 }];
-        Family::new(name, shapes, count, &mut move |random, _| {
+        Family::new(name, shapes, draw, &mut move |random, _| {
             let axis = random.unit();
             let origin = f32s(axis * distance);
             (0, origin, (on_disc(random, DVec3::ZERO, axis, 1.6) - origin).normalize())
@@ -63,11 +63,11 @@ pub fn capsules(count: usize) -> Vec<Family> {
     vec![afar("capsule from 10", 10.0), afar("capsule from 1e4", 1e4)]
 }
 
-pub fn instances(count: usize) -> Vec<Family> {
+pub fn instances(draw: Draw) -> Vec<Family> {
     const MATRICES: usize = 16;
     // Turned, sheared, mirrored half of the time, stretched by `stretch`, moved by `shift`.
     let family = |name, stretch: f64, shift: f64| {
-        let mut random = Random(11);
+        let mut random = draw.random(11);
         let matrix = |_| {
             let size =
                 DVec3::new(1.0, random.scale(1.0 / stretch, 1.0), random.scale(1.0 / stretch, 1.0));
@@ -83,7 +83,7 @@ pub fn instances(count: usize) -> Vec<Family> {
         };
         let matrices: Vec<_> = (0..MATRICES).map(matrix).collect();
         let shapes = matrices.iter().map(|rows| Shape::Instance(*rows)).collect();
-        Family::new(name, shapes, count, &mut |random, number| {
+        Family::new(name, shapes, draw, &mut |random, number| {
             let shape = number % MATRICES;
             let (linear, translation) = parts(&matrices[shape]);
             let target = translation + linear * random.in_cube() * 0.6;
@@ -98,13 +98,13 @@ pub fn instances(count: usize) -> Vec<Family> {
     ]
 }
 
-pub fn heightfields(count: usize) -> Vec<Family> {
+pub fn heightfields(draw: Draw) -> Vec<Family> {
     let field = |k: f32, lipschitz: f32| {
         let (f, g) = ([0.11, 0.08], [0.3, 0.2]);
         vec![Shape::Heightfield(Heightfield { k, a: 0.6, f, b: 0.25, g, lipschitz })]
     };
     let family = |name, shapes, degrees: f64, height: f64| {
-        Family::new(name, shapes, count, &mut move |random, _| {
+        Family::new(name, shapes, draw, &mut move |random, _| {
             let around = random.between(0.0, TAU);
             let down = degrees.to_radians();
             let origin = DVec3::new(random.between(-9.0, 9.0), height, random.between(-9.0, 9.0));
