@@ -128,7 +128,9 @@ impl<'a> Start<'a> {
             Some((name, _)) => known.contains(name),
             None => true,
         };
-        let profile: Vec<&str> = profile.filter(fits).collect();
+        let mut profile: Vec<&str> = profile.filter(fits).collect();
+        // A comment above the first [[bin]] is about that.
+        while profile.pop_if(|last| last.is_empty() || last.starts_with('#')).is_some() {}
         Ok(format!(
             "[package]\nname = \"{}\"\nversion = \"0.1.0\"\nedition = {}\nrust-version = {}\npublish = false\n\n\
              [dependencies]\nraybook = {{ {from} }}\n\n\
@@ -137,7 +139,7 @@ impl<'a> Start<'a> {
             self.name,
             package["edition"],
             package["rust-version"],
-            profile.join("\n").trim_end()
+            profile.join("\n")
         ))
     }
 

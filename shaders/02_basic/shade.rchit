@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "push.glsl"
-#include "brightness.glsl"
 
 // ANCHOR: textures
 layout(set = 1, binding = 0) uniform sampler2D textures[];
@@ -37,7 +36,7 @@ void main() {
     vec3 light = push.light.direction;
     vec3 color = material.emission + base * ambient(normal);
     color += push.light.radiance
-        * brightness(base, material.specular, material.shininess, normal, view, light);
+        * reflect_light(base, material.specular, material.shininess, normal, view, light);
 
     payload = vec4(color, 1.0);
     if (SHOW == SHOW_NORMAL) {

@@ -33,8 +33,11 @@ float power_of_cosine(float s, float n) {
 
 // Lambert's law and a normalised Blinn-Phong highlight (Akenine-Moeller et al., Real-Time Rendering,
 // 4th ed., section 9.8). All vectors are unit; `view` points to the eye, `light` to the light.
+// ANCHOR: brightness
 vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 view, vec3 light) {
+    // ANCHOR: lambert
     float lambert = max(dot(normal, light), 0.0);
+    // ANCHOR_END: lambert
     // Eye and light may be opposite: then their sum is 0, and has no direction.
     vec3 half_way = view + light;
     half_way *= inversesqrt(max(dot(half_way, half_way), 1e-30));
@@ -43,3 +46,4 @@ vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 
     float highlight = power_of_cosine(0.5 * dot(apart, apart), shininess);
     return (base + specular * highlight * (shininess + 8.0) / 8.0) * lambert / 3.14159265;
 }
+// ANCHOR_END: brightness

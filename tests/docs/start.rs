@@ -245,6 +245,23 @@ fn a_lamp_of_the_page_lights_the_ground() {
 }
 
 #[test]
+fn a_grid_of_rays_is_the_mean_of_a_finer_picture() {
+    let steps = ["template", "second_light", "sphere", "bowl", "lamps", "smooth"];
+    let program = Stepped::new("my_tracer_smooth").with(&steps);
+    let (coarse, fine) =
+        (program.pixels("30x20", &["grid=4"]), program.pixels("120x80", &["grid=1"]));
+    let mean = |i: usize| {
+        let (x, y) = (i % 30, i / 30);
+        let of = |j: usize| fine[(4 * y + j / 4) * 120 + 4 * x + j % 4];
+        (0..16).map(of).sum::<Vec3>() / 16.0
+    };
+    // A ray along an edge may fall on either side of it in the other picture.
+    let is_other = |i: &usize| !coarse[*i].abs_diff_eq(mean(*i), 1e-4);
+    let others = (0..coarse.len()).filter(is_other).count();
+    assert!(others <= 6, "{others} of 600 pixels differ");
+}
+
+#[test]
 fn the_sphere_of_the_page_is_lit_as_a_sphere_and_the_bowl_is_its_lower_half() {
     let steps = ["template", "second_light", "sphere"];
     let program = Stepped::new("my_tracer_sphere").with(&steps);

@@ -10,6 +10,7 @@ mod machine;
 mod many;
 mod models;
 mod outputs;
+mod own_program;
 mod owners;
 mod scarce;
 mod scenes;

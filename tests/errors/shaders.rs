@@ -350,21 +350,32 @@ fn what_is_seldom_meant_is_a_warning() {
     let hidden = "02_basic/camera.rgen: a ray has the cull mask 0, which every instance's mask hides from it";
     let opaque =
         "03_any_hit/decide.rahit is never asked: every ray has the flag gl_RayFlagsOpaqueEXT";
-    let beyond = "02_basic/camera.rgen: a ray has the sbtRecordOffset 1, and the pipeline has 1 hit group: such \
-                  a record is there only if ShaderBindingTable::with_hit_records makes it";
+    let backward = "02_basic/camera.rgen: a ray begins at tmin = 2e30 and ends before, at tmax = 1e30: it hits nothing";
+    let folder_out = tempfile::tempdir().unwrap();
+    let out = folder_out.path().join("out.png");
     for (program, from, to, line) in [
         ("02_basic", "        0xff,  ", "        0x00,  ", hidden),
-        ("02_basic", "        0,                          // sbtR", "        1, // sbtR", beyond),
+        ("02_basic", "0.0,                        // tmin", "2e30, // tmin", backward),
         ("03_any_hit", "        flags,\n", "        gl_RayFlagsOpaqueEXT,\n", opaque),
     ] {
         let folder = folder(&format!("{program}/camera.rgen"), |text| text.replace(from, to));
-        let arguments = ["--headless", "--size", "16x10"];
+        let arguments = ["--headless", "--size", "16x10", "--out", crate::text(&out)];
         let mut command = std::process::Command::new(run::program(program));
         let ended = command.args(arguments).env("SHADERS", folder.path()).output().unwrap();
         let said = String::from_utf8(ended.stderr).unwrap();
         assert!(ended.status.success(), "{said}");
         assert_eq!(said.trim_end(), format!("warning: {line}"));
     }
+}
+
+/// Silent without the check: what is hit is shaded by another group, or by what lies behind the table.
+#[test]
+fn a_ray_adds_to_a_hit_record_what_the_table_has() {
+    let file = "02_basic/camera.rgen";
+    let (from, to) = ("        0,                          // sbtR", "        1, // sbtR");
+    let folder = folder(file, |text| text.replace(from, to));
+    let words = "a ray has the sbtRecordOffset 1, and the shader binding table of '02_basic' has 1 hit record;";
+    shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
 }
 
 /// Silent without the check: a sphere is shaded by what is beside its normal, a triangle by no weights.

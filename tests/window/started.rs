@@ -66,6 +66,31 @@ fn a_program_outside_the_book_follows_edits_of_its_own_shaders() {
     follows_an_edit(desk, &copy.path().join("my_tracer"));
 }
 
+/// An edit that compiles, and reads beyond an array: the driver takes the window with it, and a line is left.
+#[test]
+fn an_edit_that_crashes_the_driver_ends_the_window_in_a_line() {
+    if !run::device::is_software() {
+        return;
+    }
+    let _alone = alone();
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    run::copy(&run::root().join("docs/chapters/start/template/shaders"), copy.path());
+    let environment = [("SHADERS", copy.path())];
+    let desk = Desk::open("my_tracer", &["--size", "640x420"], &environment);
+    let (from, to) = (
+        "report(push.scene, barycentrics);",
+        "report(push.scene, barycentrics);\n    \
+                       hit.color = push.scene.materials.at[hit.material + (1 << 25)].base_color;",
+    );
+    run::replace_line(copy.path(), "my_tracer/mesh.rchit", from, to);
+    let (code, line) = run::refusal(desk.end());
+    assert_eq!(code, 1, "{line}");
+    assert!(
+        line.contains("crashed (SIGSEGV) while the device worked: most likely a shader"),
+        "{line}"
+    );
+}
+
 #[test]
 #[ignore = "nightly: it compiles the framework anew; quick: started::a_program_outside_the_book_follows_edits_of_its_own_shaders"]
 fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
@@ -111,8 +136,11 @@ fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     apply("sphere");
     let good = std::fs::read_to_string(&main).expect("the program");
     for (record, words) in [
-        (2, "an instance of the top level has the hit record 2"),
-        (0, "an instance of boxes has the hit record 0, which is a hit group for triangles"),
+        (2, "an instance of 'sphere' has the hit record 2"),
+        (
+            0,
+            "an instance of boxes, 'sphere', has the hit record 0, which is a hit group for triangles",
+        ),
     ] {
         let edited = good.replace("last, 1, &sphere", &format!("last, {record}, &sphere"));
         assert_ne!(edited, good);

@@ -86,6 +86,10 @@ pub fn check_files(args: &Args, options: &Options) -> Result<()> {
         let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
         return Err(UsageError(why.to_owned()).into());
     }
+    if args.list_records {
+        let why = "this program makes its table by itself: --list-records is for 02 and on";
+        return Err(UsageError(why.to_owned()).into());
+    }
     if args.animate {
         let why =
             "this program plays no frames: --animate is for chapters that do, such as 14_animation";
@@ -114,6 +118,10 @@ impl RunHooks for Instruments {
         if let Some(probe) = &self.probe {
             probe.device(options);
         }
+    }
+
+    fn has_result(&self) -> bool {
+        !self.options.are_none()
     }
 
     fn begin(&mut self, run: &mut Run) -> Result<()> {

@@ -58,6 +58,10 @@ pub struct Args {
     #[arg(long, conflicts_with = "list_devices")]
     pub list_controls: bool,
 
+    /// Print the records of the shader binding tables: pipeline, record, shaders, what asks for it; nothing is rendered
+    #[arg(long, conflicts_with_all = ["list_controls", "list_devices"])]
+    pub list_records: bool,
+
     /// Use this device: its number in --list-devices or a part of its name
     #[arg(long, value_name = "N|NAME", value_parser = NonEmptyStringValueParser::new(), allow_negative_numbers = true)]
     pub device: Option<String>,

@@ -6,7 +6,7 @@ mod value;
 
 use std::ops::RangeInclusive;
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use glam::Vec3;
 
 use super::Playback;
@@ -211,6 +211,41 @@ pub fn list(declare: impl FnOnce(&mut Controls)) -> Vec<Listed> {
     let mut listed = Vec::new();
     declare(&mut Controls::new(&mut listed));
     listed
+}
+
+/// Controls as they are declared: names, and the first mistake.
+#[derive(Default)]
+struct Declared {
+    names: Vec<String>,
+    wrong: Option<String>,
+}
+
+impl Visit for Declared {
+    fn visit(&mut self, name: &str, value: Value) -> bool {
+        let wrong = if self.names.iter().any(|known| known == name) {
+            Some(format!("two controls have the name '{name}': --set would find the first alone"))
+        } else if name.trim().is_empty() || name.contains('=') {
+            Some(format!("a control has the name '{name}'; --set \"NAME=VALUE\" could not name it"))
+        } else if !value.is_possible() {
+            let (now, possible) = (value.text(), value.possible());
+            Some(format!("control '{name}' is declared with the value {now}; it takes {possible}"))
+        } else {
+            None
+        };
+        self.wrong = self.wrong.take().or(wrong);
+        self.names.push(name.to_owned());
+        false
+    }
+}
+
+/// Checks that each control of those that `declare` declares has a name of its own and a possible value.
+///
+/// # Errors
+/// Names the first that does not.
+pub fn check(declare: impl FnOnce(&mut Controls)) -> Result<()> {
+    let mut declared = Declared::default();
+    declare(&mut Controls::new(&mut declared));
+    declared.wrong.map_or(Ok(()), |wrong| Err(anyhow!(wrong)))
 }
 
 /// Controls to be set, each by name and text.

@@ -6,6 +6,7 @@ use anyhow::Result;
 
 use super::animated::{self, Animated};
 use super::{Args, Program, Progress, Run, RunHooks, files};
+use crate::output;
 
 /// Renders the frames of a sample, and writes the last one, or all of them for an animation.
 ///
@@ -18,6 +19,10 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
     let mut run = Run::new(program, args, hooks, start)?;
     if args.list_controls {
         return run.list_controls();
+    }
+    if args.list_records {
+        run.list_records()?;
+        return run.close();
     }
     hooks.begin(&mut run)?;
     let mut animated = args.animate.then(|| Animated::begin(&mut run)).transpose()?;
@@ -41,10 +46,20 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
     if let Some(out) = &args.out {
         match animated {
             Some(animated) => animated.save(out)?,
-            None => picture.map_or_else(|| run.picture(), Ok)?.save(out)?,
+            None => {
+                let picture = picture.map_or_else(|| run.picture(), Ok)?;
+                picture.save(out)?;
+                output::warn(picture.not_finite().as_slice());
+            }
         }
     }
-    run.close()
+    run.close()?;
+    if args.out.is_none() && args.files.outputs.is_empty() && !args.validate && !hooks.has_result()
+    {
+        let line = "the picture is written nowhere: --out FILE.png or FILE.exr names a file";
+        output::warn(&[line.to_owned()]);
+    }
+    Ok(())
 }
 
 #[cfg(test)]

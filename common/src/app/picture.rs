@@ -63,6 +63,19 @@ impl Picture {
         write_whole(path, &bytes.with_context(|| format!("cannot encode '{}'", path.display()))?)
     }
 
+    /// A warning if pixels are not finite: a PNG shows them black or white.
+    pub fn not_finite(&self) -> Option<String> {
+        let is_wild = |pixel: &[f32; 4]| !pixel.iter().all(|part| part.is_finite());
+        let first = self.pixels.iter().position(is_wild)?;
+        let count = self.pixels.iter().filter(|pixel| is_wild(pixel)).count();
+        let (x, y) = (first % self.width as usize, first / self.width as usize);
+        let are = if count == 1 { "1 pixel is".to_owned() } else { format!("{count} pixels are") };
+        Some(format!(
+            "{are} not finite, the first at {x}, {y}: {:?}; a root of a negative number, a division by 0?",
+            self.pixels[first]
+        ))
+    }
+
     /// The pixels as 8-bit sRGB.
     pub fn srgb(&self) -> Vec<u8> {
         self.pixels.iter().flat_map(|pixel| [0, 1, 2].map(|i| to_srgb(pixel[i]))).collect()
@@ -152,6 +165,27 @@ mod tests {
         let read = Picture::open_exr(&path).unwrap();
         let bits = |p: &Picture| p.pixels.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&read), bits(&gradient()));
+    }
+
+    #[test]
+    fn pixels_that_are_not_finite_are_counted() {
+        let mut picture = gradient();
+        picture.pixels.iter_mut().for_each(|pixel| pixel[2] = 0.5);
+        assert_eq!(picture.not_finite(), None);
+        picture.pixels[64 * 3 + 5][0] = f32::NAN;
+        assert!(
+            picture
+                .not_finite()
+                .unwrap()
+                .starts_with("1 pixel is not finite, the first at 5, 3: [NaN")
+        );
+        picture.pixels[64 * 3 + 4][1] = f32::NEG_INFINITY;
+        assert!(
+            picture
+                .not_finite()
+                .unwrap()
+                .starts_with("2 pixels are not finite, the first at 4, 3: [")
+        );
     }
 
     #[test]

@@ -16,6 +16,9 @@ pub fn run<S: Sample>(name: &'static str, mut hooks: impl RunHooks) -> ExitCode 
     exit::finish(|| {
         let program = Program::of::<S>(name);
         let (mut args, matches) = Args::parse(name, |command| hooks.options(command))?;
+        if std::env::var_os("SHADERS").is_none() {
+            output::warn(paths::elsewhere().as_slice());
+        }
         if hooks.asked(&program, &matches, &mut args)? {
             program.start(&args, &mut hooks)?;
         }
@@ -25,7 +28,7 @@ pub fn run<S: Sample>(name: &'static str, mut hooks: impl RunHooks) -> ExitCode 
 
 /// As [`run`], for a sample of the crate in the folder `home`; [`run!`](crate::run!) calls it.
 pub fn run_at<S: Sample>(name: &'static str, home: &str) -> ExitCode {
-    paths::set(home);
+    paths::set(home, name);
     run::<S>(name, ())
 }
 
@@ -63,7 +66,7 @@ impl Program {
         if args.list_devices {
             return list_devices(&(self.requirements)());
         }
-        if args.headless || args.list_controls {
+        if args.headless || args.list_controls || args.list_records {
             headless::run(self, args, hooks)
         } else {
             window::open(self, args, hooks)

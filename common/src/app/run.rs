@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
+use ash::vk;
 
 use super::bands::{self, Bands};
 use super::{Args, Picture, Program, RunHooks, Sample, Setup, controls, files};
@@ -56,6 +57,7 @@ impl<'a> Run<'a> {
         let mut sample = (program.make)(&gpu, &setup)?;
         setup.check()?;
         files::check_scene(args)?;
+        controls::check(|c| sample.controls(c))?;
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let names = args.sets.iter().map(|(name, _)| &**name);
         output::warn(&controls::without_effect(names, |c| sample.controls(c)));
@@ -86,6 +88,26 @@ impl<'a> Run<'a> {
             // The possible values may include names from a scene file.
             let cells = [&*name, kind, &*possible, &*value].map(output::plain);
             output::print(&(cells.join("\t") + "\n"))?;
+        }
+        Ok(())
+    }
+
+    /// Prints a line for each record of the shader binding tables: pipeline, record, shaders, what asks for it.
+    ///
+    /// # Errors
+    /// If the sample's pipelines cannot be built, or the lines cannot be written.
+    pub fn list_records(&mut self) -> Result<()> {
+        self.sample.changed(&self.gpu)?;
+        // Many samples build their pipelines only for a frame: one pixel is enough.
+        let pixel = vk::Extent2D { width: 1, height: 1 };
+        self.image = Image::storage(&self.gpu, "picture", pixel)?;
+        self.render(0)?;
+        let statistics = self.gpu.statistics();
+        for table in &statistics.tables {
+            for line in table.lines(&statistics.asked) {
+                let cells: Vec<_> = line.split('\t').map(output::plain).collect();
+                output::print(&(cells.join("\t") + "\n"))?;
+            }
         }
         Ok(())
     }

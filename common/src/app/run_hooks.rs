@@ -25,6 +25,11 @@ pub trait RunHooks {
     /// Changes the options for opening the device: features, or the driver shim.
     fn device(&self, _: &mut GpuOptions) {}
 
+    /// True if the run has another result than the picture, for example a report.
+    fn has_result(&self) -> bool {
+        false
+    }
+
     /// Called with the sample created and its controls set; may still change which frames are rendered.
     ///
     /// # Errors

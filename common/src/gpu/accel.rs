@@ -7,6 +7,8 @@
 mod build;
 mod compaction;
 pub mod geometry;
+mod input;
+mod level;
 pub mod margin;
 mod micromap;
 pub mod micromap_extension;
@@ -24,6 +26,7 @@ use super::pipeline::Asked;
 use super::{Buffer, Gpu};
 use crate::gpu::accel::geometry::Geometry;
 use crate::gpu::accel::micromap_extension::TrianglesMicromap;
+pub use level::Level;
 pub use micromap::OpacityMicromap;
 use plan::Plan;
 
@@ -44,7 +47,8 @@ pub struct BuildOptions {
     pub micromap: Option<TrianglesMicromap>,
 }
 
-/// A `VkAccelerationStructureKHR` of either level with its share of a buffer, freed on drop.
+/// A `VkAccelerationStructureKHR` of either level with its share of a buffer, freed on drop: a bottom level once no
+/// top level of [`build_top`](crate::scene::build_top) refers to it.
 pub struct AccelerationStructure {
     /// The Vulkan handle.
     pub handle: vk::AccelerationStructureKHR,
@@ -56,8 +60,9 @@ pub struct AccelerationStructure {
     pub asked: Asked,
     /// The geometries and options it was built with.
     plan: Plan,
-    /// The buffer that contains it, shared with others built with it.
-    _buffer: Arc<Buffer>,
+    _level: Arc<Level>,
+    /// The bottom levels of its instances, as far as known: they live as long as it does.
+    below: Vec<Arc<Level>>,
     gpu: Gpu,
 }
 
@@ -87,7 +92,8 @@ impl AccelerationStructure {
 
     /// Builds a top level from a buffer of `count` `VkAccelerationStructureInstanceKHR`.
     ///
-    /// The bottom levels the instances refer to must stay alive as long as it is traced.
+    /// The bottom levels the instances refer to must stay alive as long as it is traced;
+    /// [`build_top`](crate::scene::build_top) keeps them alive.
     ///
     /// # Errors
     /// As [`AccelerationStructure::bottom`].
@@ -103,13 +109,9 @@ impl AccelerationStructure {
     }
 }
 
-impl Drop for AccelerationStructure {
-    fn drop(&mut self) {
-        self.gpu.forget_level(self.address);
-        // SAFETY: submissions are waited for, so no trace or build uses it any more.
-        unsafe {
-            self.gpu.acceleration_structure.destroy_acceleration_structure(self.handle, None);
-        }
-        self.gpu.count(|statistics| statistics.acceleration_structure_bytes -= self.size);
+impl AccelerationStructure {
+    /// Keeps these bottom levels alive as long as this top level.
+    pub(crate) fn keep(&mut self, below: Vec<Arc<Level>>) {
+        self.below = below;
     }
 }

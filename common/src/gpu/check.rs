@@ -3,7 +3,9 @@
 
 pub mod driver_shim;
 pub mod executable;
+mod image_format;
 pub mod interface_check;
 pub mod reflection;
 pub mod statistics;
+pub mod table;
 pub mod validation;

@@ -1,5 +1,6 @@
 //! The memory of a buffer or an image.
 
+pub mod arrays;
 pub mod buffer;
 pub mod image;
 pub mod staging;

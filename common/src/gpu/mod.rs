@@ -43,8 +43,9 @@ pub use pipeline::enumeration::{Number, ShaderConstant, ShaderEnum, words, words
 pub use pipeline::layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
 pub use pipeline::sbt::{Record, ShaderBindingTable};
 pub use pipeline::{
-    Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline, PipelineBuilder,
-    RayTracingPipeline, contraction, sbt, shader,
+    Asked, AskedRecord, Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline,
+    PipelineBuilder, RayTracingPipeline, contraction, sbt, shader,
 };
+pub use submit::is_at_work;
 pub use swapchain::{Acquired, Swapchain};
 pub use timing::Timer;

@@ -24,9 +24,10 @@ pub use builder::PipelineBuilder;
 pub use compute::{Band, ComputePipeline};
 pub use graphics::GraphicsPipeline;
 pub use hit_group::HitGroup;
-pub use hit_records::Asked;
+pub use hit_records::{Asked, AskedRecord, RayRecord};
 
 use super::{AccelerationStructure, Buffer, Gpu, Image, Record};
+use crate::gpu::check::interface_check::Agreed;
 use crate::gpu::pipeline::desc::{Binding, PipelineDesc, STAGES};
 use crate::gpu::pipeline::layout::ShaderStruct;
 
@@ -52,6 +53,8 @@ pub struct Pipeline {
     /// Time for compiling the shaders and creating the pipeline.
     pub build_time: Duration,
     textures: Option<vk::DescriptorSet>,
+    /// Facts from its shaders that are checked when it is bound.
+    pub(super) agreed: Agreed,
     set_layout: vk::DescriptorSetLayout,
     gpu: Gpu,
 }
@@ -115,7 +118,7 @@ impl RayTracingPipeline {
                 descriptor
                 && !records.is_empty()
             {
-                hit_records::check(asked, &records, &self.desc.name)?;
+                hit_records::check(asked, &records, &self.agreed.rays, &self.desc.name)?;
             }
         }
         drop(records);
@@ -155,6 +158,7 @@ impl Pipeline {
             "pipeline '{name}' takes {push_size} bytes of push constants, not {}",
             bytes.len()
         );
+        self.check_addresses(push)?;
         let (device, point) = (&self.gpu.device, self.desc.bind_point());
         // SAFETY: cmd is being recorded; the pipeline and its descriptors outlive the submission.
         unsafe {
@@ -166,6 +170,26 @@ impl Pipeline {
         }
         for (binding, descriptor) in (0..).zip(descriptors) {
             self.push(cmd, binding, descriptor)?;
+        }
+        Ok(())
+    }
+
+    /// Checks that a buffer lies at each address in the push constants; 0 stands for none.
+    fn check_addresses<T: ShaderStruct>(&self, push: &T) -> Result<()> {
+        let mut offsets = Vec::new();
+        T::addresses(0, &mut offsets);
+        for offset in offsets {
+            let bytes = &bytemuck::bytes_of(push)[offset..][..size_of::<vk::DeviceAddress>()];
+            let address: vk::DeviceAddress = bytemuck::pod_read_unaligned(bytes);
+            let field = T::LAYOUT.fields.iter().rev().find(|(_, at)| *at <= offset);
+            ensure!(
+                address == 0 || self.gpu.arrays().from(address).is_some(),
+                "pipeline '{}': no buffer lies at {address:#x}, the address in {}.{}; was it dropped? It must live \
+                 as long as it is read",
+                self.desc.name,
+                T::LAYOUT.name,
+                field.map_or("", |(name, _)| name)
+            );
         }
         Ok(())
     }
@@ -183,6 +207,7 @@ impl Pipeline {
                 write.descriptor_count(1).push_next(&mut in_structure)
             }
             Descriptor::StorageImage(target) => {
+                self.agreed.check_format(binding, target)?;
                 let info = vk::DescriptorImageInfo::default().image_view(target.view);
                 image = [info.image_layout(vk::ImageLayout::GENERAL)];
                 write.image_info(&image)
@@ -228,3 +253,6 @@ impl Drop for Pipeline {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
 //! Submission: records commands, submits them and waits for them.
 
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -17,6 +18,14 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// Number of retries of a wait that failed for lack of host memory, and the pause between them.
 const TRIES: u32 = 50;
 const PAUSE: Duration = Duration::from_millis(20);
+
+/// Number of submissions that the devices of this process have not finished.
+static AT_WORK: AtomicU32 = AtomicU32::new(0);
+
+/// True if a device of this process is at work: a crash is then most likely a shader's.
+pub fn is_at_work() -> bool {
+    AT_WORK.load(Ordering::Relaxed) > 0
+}
 
 impl Gpu {
     /// Records commands with `record`, submits them, and waits for their completion.
@@ -75,9 +84,11 @@ impl Gpu {
         // SAFETY: the commands are recorded; the fence is destroyed after the wait.
         unsafe {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
+            AT_WORK.fetch_add(1, Ordering::Relaxed);
             let submitted = self.device.queue_submit2(self.queue, &[submit], fence);
             let wait = || self.device.wait_for_fences(&[fence], true, PATIENCE.as_nanos() as u64);
             let done = submitted.and_then(|()| self.insist(wait));
+            AT_WORK.fetch_sub(1, Ordering::Relaxed);
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")
         }

@@ -1,6 +1,7 @@
 //! The world of the book: a chess set, placed from a position in Forsyth-Edwards notation.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use anyhow::{Context, Result, bail};
 use glam::{Affine3A, DVec3, Mat3A, Vec3, Vec3A};
@@ -8,13 +9,15 @@ use glam::{Affine3A, DVec3, Mat3A, Vec3, Vec3A};
 use super::{Camera, Instance, Material, Scene};
 use crate::model::Model;
 use crate::model::obj;
+use crate::paths;
 
 /// Morphy's game at the Paris opera, 1858, before White's tenth move.
 const POSITION: &str = "rn2kb1r/p3qppp/2p2n2/1p2p1B1/2B1P3/1QN5/PPP2PPP/R3K2R";
 
 /// The folder of the project's own models.
 pub fn assets() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../samples/assets"))
+    static ASSETS: LazyLock<PathBuf> = LazyLock::new(|| paths::book().join("samples/assets"));
+    &ASSETS
 }
 
 impl Scene {

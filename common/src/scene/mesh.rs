@@ -1,5 +1,6 @@
 //! A mesh: vertices, triangles that index them, one material.
 
+use anyhow::{Result, bail};
 use glam::{DVec3, Vec2, Vec3};
 
 common::shader_struct! {
@@ -53,6 +54,40 @@ impl Mesh {
     /// Without vertices, the box is inverted: +∞ and -∞.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         around(self.vertices.iter().map(|vertex| vertex.position))
+    }
+
+    /// Checks that every triangle indexes a vertex, and every position is finite. Returns warnings about likely
+    /// mistakes.
+    ///
+    /// # Errors
+    /// Names the mesh, and the first triangle or vertex that is wrong.
+    pub fn check(&self) -> Result<Vec<String>> {
+        let Self { name, vertices, triangles, .. } = self;
+        for (number, triangle) in triangles.iter().enumerate() {
+            let beyond = triangle.iter().find(|index| **index as usize >= vertices.len());
+            if let Some(index) = beyond {
+                bail!(
+                    "mesh '{name}': triangle {number} has the vertex {index}, and there are {}, counted from 0",
+                    vertices.len()
+                );
+            }
+        }
+        let wild = vertices.iter().position(|vertex| !vertex.position.is_finite());
+        if let Some(number) = wild {
+            bail!("mesh '{name}': vertex {number} is not finite: {}", vertices[number].position);
+        }
+        let mut warnings = Vec::new();
+        if triangles.is_empty() {
+            warnings.push(format!("mesh '{name}' has no triangles: there is nothing to see of it"));
+        }
+        let is_blind = |v: &Vertex| !v.normal.is_finite() || v.normal == Vec3::ZERO;
+        if let Some(number) = vertices.iter().position(is_blind) {
+            let normal = vertices[number].normal;
+            warnings.push(format!(
+                "mesh '{name}': the normal of vertex {number} has no direction: {normal}"
+            ));
+        }
+        Ok(warnings)
     }
 
     /// The largest absolute coordinate.

@@ -10,6 +10,7 @@ mod meshes;
 mod placement;
 pub mod plane;
 mod records;
+mod top_level;
 mod upload;
 mod world;
 
@@ -21,8 +22,8 @@ pub use mesh::{Mesh, REACH, Vertex};
 pub use meshes::triangle_order;
 pub use placement::{Moved, Placement, Size};
 pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
+pub use top_level::build_top;
 pub use upload::{
-    SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, input_usage, instance_bytes,
-    instance_on_gpu, transform,
+    SceneOnGpu, SceneOptions, boxes_on_gpu, input_usage, instance_bytes, instance_on_gpu, transform,
 };
 pub use world::{Instance, Scene, moved_bounds};

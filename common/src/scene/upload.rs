@@ -3,14 +3,15 @@
 use std::mem;
 use std::sync::Arc;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use ash::vk;
 use bytemuck::cast_slice;
 use glam::Vec3;
 
 use super::meshes::{MeshBuffers, MeshesOnGpu};
+use super::top_level::build_top;
 use super::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
-use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Texels, TextureTable, order};
+use crate::gpu::{AccelerationStructure, Buffer, Gpu, Texels, TextureTable, order};
 use crate::model::Model;
 
 /// A scene in device memory, ready to be traced.
@@ -69,7 +70,8 @@ impl SceneOnGpu {
     /// Uploads a scene and builds its acceleration structures.
     ///
     /// # Errors
-    /// If memory is short, or an instance's index or record offset needs more than 24 bits.
+    /// If the scene contains an index or a number that is wrong ([`Scene::check`]), memory is short, or an
+    /// instance's index or record offset needs more than 24 bits.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
         let textures = textures(gpu, &scene.model, options.mipmaps)?;
         Self::build(gpu, scene, options, textures)
@@ -114,6 +116,7 @@ impl SceneOnGpu {
         orders: &[Vec<u32>],
         kept: Option<Arc<TextureTable>>,
     ) -> Result<(SceneAddresses, Arc<TextureTable>, Vec<Buffer>)> {
+        gpu.warn("scene", scene.check()?);
         let textures = kept.map_or_else(|| textures(gpu, &scene.model, false), Ok)?;
         let MeshBuffers { records: meshes, mut buffers } =
             MeshBuffers::new(gpu, &scene.model.meshes, orders, Buffer::ADDRESSED)?;
@@ -128,6 +131,7 @@ impl SceneOnGpu {
         options: SceneOptions,
         textures: Arc<TextureTable>,
     ) -> Result<Self> {
+        gpu.warn("scene", scene.check()?);
         let instances = &scene.instances;
         ensure!(instances.len() < 1 << 24, "{} instances are too many", instances.len());
         let offset = instances.iter().map(|instance| instance.record_offset).max().unwrap_or(0);
@@ -191,54 +195,6 @@ fn records(
     Ok((records, addresses))
 }
 
-/// Builds a top level from instances already in the order of the build.
-///
-/// ```no_run
-/// use raybook::prelude::*;
-///
-/// /// The meshes of a scene, and a shape of one's own whose hit group is the second.
-/// fn everything(
-///     gpu: &Gpu,
-///     scene: &Scene,
-///     meshes: &SceneOnGpu,
-///     shape: &AccelerationStructure,
-/// ) -> Result<AccelerationStructure> {
-///     let placed = scene.instances.iter().enumerate();
-///     let placed = placed
-///         .map(|(i, at)| instance_on_gpu(&at.transform, i, 0, &meshes.blas[at.mesh]));
-///     let own = instance_on_gpu(&Affine3A::IDENTITY, scene.instances.len(), 1, shape);
-///     build_top(gpu, &placed.chain([own]).collect::<Vec<_>>())
-/// }
-/// ```
-///
-/// # Errors
-/// If memory is short.
-pub fn build_top(
-    gpu: &Gpu,
-    instances: &[vk::AccelerationStructureInstanceKHR],
-) -> Result<AccelerationStructure> {
-    let hidden =
-        instances.iter().filter(|i| i.instance_custom_index_and_mask.high_8() == 0).count();
-    let line =
-        format!("{hidden} of {} instances have the mask 0: no ray sees them", instances.len());
-    gpu.warn("top level", if hidden > 0 { vec![line] } else { Vec::new() });
-    let bytes: Vec<_> = instances.iter().map(instance_bytes).collect();
-    let buffer = Buffer::with_data(gpu, "instances", &bytes, input_usage())?;
-    let count = instances.len() as u32;
-    let mut top =
-        AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())?;
-    let asked = |i: &vk::AccelerationStructureInstanceKHR| {
-        // SAFETY: the instances of a build on the device name bottom levels by address.
-        let level = unsafe { i.acceleration_structure_reference.device_handle };
-        // An instance with a partial mask may be hidden because it has no hit group.
-        let is_seen = i.instance_custom_index_and_mask.high_8() == 0xff;
-        let kind = gpu.level_at(level).filter(|_| is_seen);
-        (i.instance_shader_binding_table_record_offset_and_flags.low_24(), kind)
-    };
-    top.asked = instances.iter().map(asked).collect();
-    Ok(top)
-}
-
 /// An instance in its device form, 64 bytes.
 pub fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
     // SAFETY: it is 64 bytes without padding, as Vulkan lays it out, and any bytes are an array of bytes.
@@ -296,7 +252,22 @@ pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
 /// ```
 ///
 /// # Errors
-/// If memory is short.
+/// If a box is not finite or its corners are exchanged, or memory is short.
 pub fn boxes_on_gpu(gpu: &Gpu, name: &str, boxes: &[[Vec3; 2]]) -> Result<Buffer> {
+    for (index, [low, high]) in boxes.iter().enumerate() {
+        ensure!(
+            low.is_finite() && high.is_finite(),
+            "box {index} of '{name}' is not finite: its low corner is {low}, its high corner {high}"
+        );
+        if let Some(axis) = (0..3).find(|&axis| low[axis] > high[axis]) {
+            let axis = ["x", "y", "z"][axis];
+            bail!(
+                "box {index} of '{name}': its low corner is above its high one in {axis}: {low}, {high}"
+            );
+        }
+    }
     Buffer::with_data(gpu, name, &gpu.driver_shim.boxes(boxes.to_vec()), input_usage())
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result, ensure};
 use glam::{Affine3A, DVec3, Vec3};
 
+use super::top_level::check_transform;
 use super::{Camera, Mesh};
 use crate::model::Model;
 use crate::model::obj;
@@ -53,6 +54,55 @@ impl Scene {
         Ok(scene)
     }
 
+    /// Checks that all indices lie within the model, and all numbers are finite. Returns warnings about likely
+    /// mistakes.
+    ///
+    /// # Errors
+    /// Names the instance, mesh or material that is wrong, and what there is.
+    pub fn check(&self) -> Result<Vec<String>> {
+        let Model { meshes, materials, textures, .. } = &self.model;
+        let mut warnings = Vec::new();
+        for mesh in meshes {
+            warnings.extend(mesh.check()?);
+            if mesh.material >= materials.len() {
+                warnings.push(format!(
+                    "mesh '{}' has the material {}, and there are {}, counted from 0; the material of its \
+                     instances counts",
+                    mesh.name,
+                    mesh.material,
+                    materials.len()
+                ));
+            }
+        }
+        for (number, material) in materials.iter().enumerate() {
+            let named = [material.base_texture, material.opacity_texture].into_iter().flatten();
+            for texture in named {
+                ensure!(
+                    texture < textures.len(),
+                    "material {number} has the texture {texture}, and there are {}, counted from 0",
+                    textures.len()
+                );
+            }
+        }
+        for (number, instance) in self.instances.iter().enumerate() {
+            let Instance { mesh, material, transform, .. } = instance;
+            ensure!(
+                *mesh < meshes.len(),
+                "instance {number} has the mesh {mesh}, and there are {}, counted from 0",
+                meshes.len()
+            );
+            ensure!(
+                *material < materials.len(),
+                "instance {number} has the material {material}, and there are {}, counted from 0",
+                materials.len()
+            );
+            let columns = [0, 1, 2].map(|i| transform.matrix3.col(i).as_dvec3());
+            check_transform(columns, transform.translation.as_dvec3())
+                .with_context(|| format!("instance {number}, of '{}'", meshes[*mesh].name))?;
+        }
+        Ok(warnings)
+    }
+
     /// Corners of the box around everything, in world space.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let boxes = self.bounds_of_instances().into_iter();
@@ -61,11 +111,15 @@ impl Scene {
         })
     }
 
-    /// Corners of the box around each instance, in world space, in the order of `instances`. Each mesh is examined
-    /// once, however many instances it has.
+    /// Corners of the box around each instance, in world space, in the order of `instances`; inverted for an
+    /// instance of a missing mesh, which [`Scene::check`] reports. Each mesh is examined once, however many
+    /// instances it has.
     pub fn bounds_of_instances(&self) -> Vec<(Vec3, Vec3)> {
         let meshes: Vec<_> = self.model.meshes.iter().map(Mesh::bounds).collect();
-        let around = |instance: &Instance| moved_bounds(meshes[instance.mesh], &instance.transform);
+        let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let around = |Instance { mesh, transform, .. }: &Instance| {
+            meshes.get(*mesh).map_or(nothing, |bounds| moved_bounds(*bounds, transform))
+        };
         self.instances.iter().map(around).collect()
     }
 

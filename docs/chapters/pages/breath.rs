@@ -6,9 +6,8 @@ use manuscript::project::Project;
 
 use crate::values::binding::stripped;
 
-/// The most words of a chapter's page, without exercises and sources; of the first two chapters.
-const MOST: usize = 1600;
-const FIRST: (&[&str], usize) = (&["01", "02"], 1800);
+/// The most words of a chapter's page, without exercises and sources: ten minutes' reading.
+const MOST: usize = 2000;
 
 /// The most words of a section without a drawing, a snippet or a table.
 const UNBROKEN: usize = 250;
@@ -95,20 +94,13 @@ fn words(line: &str) -> usize {
     shown.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
 
-/// The most words of a chapter's page.
-fn most(number: &str) -> usize {
-    let (first, most) = FIRST;
-    if first.contains(&number) { most } else { MOST }
-}
-
 /// The parts of a chapter's page that are too long.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let Some(chapter) = project.of_page(&page.path) else { return Vec::new() };
     let Breath { words, longest: (line, unbroken), .. } = Breath::of(page);
-    let most = most(chapter.number());
     let mut faults = Vec::new();
-    if words > most {
-        let what = format!("the page has {words} words, more than {most}");
+    if words > MOST {
+        let what = format!("the page has {words} words, more than {MOST}");
         let remedy = format!("cut it, or move tables to {}", chapter.measurements());
         faults.push(Fault::new(&*page.path, 1, what, remedy));
     }
@@ -126,16 +118,12 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
 
 /// A row for each chapter's page: its words, its tables, its longest section without a break.
 pub fn table(project: &Project) -> String {
-    let mut text = "page\twords\tat most\ttables\tunbroken\tat line\n".to_owned();
+    let mut text = "page\twords\ttables\tunbroken\tat line\n".to_owned();
     for chapter in &project.chapters {
         let Ok(page) = project.read(&chapter.page()) else { continue };
         let Breath { words, tables, longest: (line, unbroken) } =
             Breath::of(&Page::parse(&chapter.page(), &page));
-        let most = most(chapter.number());
-        text.push_str(&format!(
-            "{}\t{words}\t{most}\t{tables}\t{unbroken}\t{line}\n",
-            chapter.name
-        ));
+        text.push_str(&format!("{}\t{words}\t{tables}\t{unbroken}\t{line}\n", chapter.name));
     }
     text
 }

@@ -19,12 +19,13 @@ pub const TEMPLATE: &str = "docs/chapters/start/template";
 const FOLDER: &str = "docs/chapters/start";
 
 /// The steps of the page in order: the folder of the files that each changes, and the program with these changes.
-const STEPS: [(&str, &str); 5] = [
+const STEPS: [(&str, &str); 6] = [
     ("template", NAME),
     ("second_light", "my_tracer_second_light"),
     ("sphere", "my_tracer_sphere"),
     ("bowl", "my_tracer_sphere"),
     ("lamps", "my_tracer_lamps"),
+    ("smooth", "my_tracer_smooth"),
 ];
 
 /// The step with this name, by its place among all; without a name, the crate as it is made.

@@ -31,7 +31,7 @@ pub struct Options {
         value_parser = which,
         allow_hyphen_values = true,
         conflicts_with_all = [
-            "validate", "out", "report", "compare", "samples", "compile_for", "arithmetic", "animate", "list_controls",
+            "validate", "out", "report", "compare", "samples", "compile_for", "arithmetic", "animate", "list_controls", "list_records",
         ]
     )]
     pub pixel: Option<Which>,

@@ -211,3 +211,35 @@ fn a_control_beside_the_compared_one_acts_once() {
     }
     assert_eq!((scene, rung, opened), (1, 0, 1));
 }
+
+fn mistake(declare: impl FnOnce(&mut Controls)) -> String {
+    check(declare).expect_err("it is refused").to_string()
+}
+
+#[test]
+fn a_control_is_declared_with_a_possible_value_and_a_name_of_its_own() {
+    let mut sample = Sample::default();
+    check(|c| sample.controls(c)).unwrap();
+    let said = mistake(|c| _ = c.slider("moon", &mut 5.0, 0.0..=3.0));
+    assert_eq!(said, "control 'moon' is declared with the value 5; it takes 0 to 3");
+    let mut unknown = f32::NAN;
+    let said = mistake(|c| _ = c.slider("moon", &mut unknown, 0.0..=3.0));
+    assert!(said.contains("the value NaN"), "{said}");
+    // A range that is written the wrong way round holds nothing.
+    let said = mistake(|c| _ = c.integer("depth", &mut 3, RangeInclusive::new(8, 0)));
+    assert!(said.ends_with("the value 3; it takes 8 to 0"), "{said}");
+    let said = mistake(|c| _ = c.one_of("show", &mut 2, &["picture", "normal"]));
+    assert!(said.ends_with("it takes picture, normal"), "{said}");
+    let said = mistake(|c| _ = c.color("tint", &mut Vec3::new(0.0, 2.0, 0.0)));
+    assert!(said.ends_with("the value 0,2,0; it takes r,g,b, each 0 to 1"), "{said}");
+    let mut camera = Camera { fov_y: 0.0, ..Camera::default() };
+    let said = mistake(|c| _ = c.camera(&mut camera));
+    assert!(said.starts_with("control 'field of view' is declared with the value 0"), "{said}");
+    let said = mistake(|c| {
+        c.checkbox("on", &mut true);
+        c.checkbox("on", &mut false);
+    });
+    assert!(said.starts_with("two controls have the name 'on'"), "{said}");
+    let said = mistake(|c| _ = c.checkbox("a=b", &mut true));
+    assert!(said.starts_with("a control has the name 'a=b'"), "{said}");
+}

@@ -59,6 +59,23 @@ impl Value<'_> {
         }
     }
 
+    /// True if the value is a possible one.
+    pub fn is_possible(&self) -> bool {
+        let each = |v: &Vec3, range: &RangeInclusive<f32>| {
+            v.to_array().iter().all(|part| range.contains(part))
+        };
+        match self {
+            Self::Slider(value, range) => range.contains(*value),
+            Self::Integer(value, range) => range.contains(*value),
+            Self::Checkbox(_) => true,
+            Self::Color(value) => each(value, &(0.0..=1.0)),
+            Self::Choice(value, options) => (**value as usize) < options.len(),
+            Self::Vector(value, range) => each(value, range),
+            Self::Direction(value, range) => each(value, range) && **value != Vec3::ZERO,
+            Self::Point(value) => value.abs().max_element() <= FAR && value.is_finite(),
+        }
+    }
+
     /// The value, in the form that [`Value::set`] takes.
     pub fn text(&self) -> String {
         match self {

@@ -65,6 +65,7 @@ impl Session {
         let mut panel = Panel::new(program.name);
         // Home is the camera chosen by the chapter, whatever `--set` changes.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
+        controls::check(|c| sample.controls(c))?;
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let names = args.sets.iter().map(|(name, _)| &**name);
         output::warn(&controls::without_effect(names, |c| sample.controls(c)));

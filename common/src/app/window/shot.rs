@@ -7,6 +7,7 @@ use ash::vk;
 
 use crate::app::Picture;
 use crate::gpu::Image;
+use crate::output;
 
 /// The picture to write.
 #[derive(Default)]
@@ -26,7 +27,9 @@ impl Shot {
         ready.then(|| {
             let path = free_name(Path::new("."), name)?;
             let vk::Extent2D { width, height } = image.extent;
-            Picture { width, height, pixels: image.read()? }.save(&path)?;
+            let picture = Picture { width, height, pixels: image.read()? };
+            picture.save(&path)?;
+            output::warn(picture.not_finite().as_slice());
             Ok(path)
         })
     }

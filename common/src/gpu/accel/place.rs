@@ -5,10 +5,10 @@ use std::sync::Arc;
 use anyhow::Result;
 use ash::vk;
 
-use super::{AccelerationStructure, Plan};
+use super::{AccelerationStructure, Level, Plan};
 use crate::gpu::memory::buffer::offsets;
 use crate::gpu::pipeline::Asked;
-use crate::gpu::{Buffer, Gpu};
+use crate::gpu::{Buffer, Geometry, Gpu};
 
 /// Alignment of a structure's offset in its buffer.
 pub(super) const OFFSET_ALIGNMENT: u64 = 256;
@@ -40,9 +40,23 @@ pub(super) fn place(
         let address = unsafe { extension.get_acceleration_structure_device_address(&of) };
         gpu.name_object(handle, &plan.name);
         gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
-        plan.geometries.first().inspect(|one| gpu.note_level(address, one.kind()));
-        let (asked, _buffer, gpu) = (Asked::new(), buffer.clone(), gpu.clone());
-        placed.push(AccelerationStructure { handle, address, size, asked, plan, _buffer, gpu });
+        let kind = plan.geometries.first().map(Geometry::kind);
+        let (geometries, name) = ((kind, plan.geometries.len() as u32), plan.name.clone());
+        let (_buffer, gpu) = (buffer.clone(), gpu.clone());
+        let _level =
+            Arc::new(Level { handle, address, size, name, geometries, _buffer, gpu: gpu.clone() });
+        gpu.note_level(&_level);
+        let (asked, below) = (Asked::default(), Vec::new());
+        placed.push(AccelerationStructure {
+            handle,
+            address,
+            size,
+            asked,
+            plan,
+            _level,
+            below,
+            gpu,
+        });
     }
     Ok(placed)
 }

@@ -5,7 +5,7 @@ use std::ptr;
 use anyhow::{Result, bail, ensure};
 use ash::vk;
 
-use super::{BuildOptions, Input};
+use super::{BuildOptions, Input, input};
 use crate::gpu::{Geometry, Gpu};
 
 /// The description of a structure before it is built, needed again to rebuild or update it.
@@ -21,7 +21,7 @@ pub(super) struct Plan {
 
 impl Plan {
     /// # Errors
-    /// If a count exceeds the device's limit.
+    /// If a count exceeds the device's limit, or the input lies in no buffer.
     pub(super) fn new(gpu: &Gpu, (name, list): Input, options: BuildOptions) -> Result<Self> {
         let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
         let (name, geometries) = (name.to_owned(), list.to_vec());
@@ -36,6 +36,10 @@ impl Plan {
         let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
         let name = &plan.name;
         ensure!(total <= limit, "'{name}' has {total} {what}; {} takes {limit}", gpu.name);
+        input::check_arrays(gpu, name, &plan.geometries)?;
+        if gpu.is_validated() {
+            input::check_contents(gpu, name, &plan.geometries)?;
+        }
         // SAFETY: info and counts describe the same geometries.
         unsafe {
             gpu.acceleration_structure.get_acceleration_structure_build_sizes(

@@ -5,6 +5,7 @@ use ash::vk;
 
 use super::AccelerationStructure;
 use super::build::{Build, record, scratch_buffer};
+use super::input;
 use crate::gpu::{Buffer, Geometry};
 
 impl AccelerationStructure {
@@ -72,6 +73,7 @@ impl AccelerationStructure {
         mode: vk::BuildAccelerationStructureModeKHR,
     ) -> Result<()> {
         self.plan.check(geometries)?;
+        input::check_arrays(&self.gpu, &self.plan.name, geometries)?;
         let is_update = mode == vk::BuildAccelerationStructureModeKHR::UPDATE;
         let needed = if is_update { self.update_scratch() } else { self.build_scratch() };
         ensure!(

@@ -6,17 +6,60 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use anyhow::{Result, bail, ensure};
 use ash::vk;
+use serde::{Deserialize, Serialize};
 
 use crate::files::{self, cache};
+use crate::gpu::Image;
+use crate::gpu::check::image_format;
 use crate::gpu::check::reflection::{Passed, Payloads, Reflection};
+use crate::gpu::pipeline::RayRecord;
 use crate::gpu::pipeline::desc::{Binding, Group, PipelineDesc};
 use crate::gpu::pipeline::enumeration;
 use crate::gpu::pipeline::layout::Known;
 use crate::gpu::pipeline::shader::Shader;
 
-/// Compares the shaders of a pipeline with the declarations in Rust, with the bindings and with each other;
-/// returns warnings about likely mistakes. `groups` is the number of shader groups of each kind: raygen, miss,
-/// hit, callable.
+/// The outcome of a check.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Agreed {
+    /// Warnings about likely mistakes.
+    pub warnings: Vec<String>,
+    /// The rays whose part of a hit record's number is constant, to be compared with a table.
+    pub rays: Vec<RayRecord>,
+    /// The formats of images, to be compared with those that are bound.
+    formats: Vec<Declared>,
+}
+
+/// The format that a shader declares for an image of set 0.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Declared {
+    shader: String,
+    binding: u32,
+    format: String,
+}
+
+impl Agreed {
+    /// Checks that the image for a binding has the format that shaders declare for it; any other is undefined
+    /// behaviour.
+    ///
+    /// # Errors
+    /// Names the shader, and both formats.
+    pub fn check_format(&self, number: u32, image: &Image) -> Result<()> {
+        let of = self.formats.iter().filter(|declared| declared.binding == number);
+        for Declared { shader, format, .. } in of {
+            let Some(right) = image_format::layout_of(image.format) else { continue };
+            ensure!(
+                right == format,
+                "{shader}: set 0, binding {number} is an image of layout({format}), and the program binds one of \
+                 {:?}: layout({right}) is right",
+                image.format
+            );
+        }
+        Ok(())
+    }
+}
+
+/// Compares the shaders of a pipeline with the declarations in Rust, with the bindings and with each other.
+/// `groups` is the number of shader groups of each kind: raygen, miss, hit, callable.
 ///
 /// A successful check is recorded beside the shaders' SPIR-V, under a hash of its whole input and of the checking
 /// code, and is not repeated.
@@ -28,22 +71,24 @@ pub fn check(
     groups: [usize; 4],
     shaders: &[Shader],
     known: &Known,
-) -> Result<Vec<String>> {
+) -> Result<Agreed> {
     let PipelineDesc { name, bindings, textures, .. } = desc;
-    let [raygens, misses, hits, _] = groups;
+    let [raygens, misses, ..] = groups;
     let mut hasher = DefaultHasher::new();
     let ways = [
         include_str!("interface_check.rs"),
         include_str!("reflection.rs"),
         include_str!("reflection/memory.rs"),
         include_str!("reflection/rays.rs"),
+        include_str!("image_format.rs"),
     ];
     (ways, include_str!("../pipeline/enumeration.rs"), known).hash(&mut hasher);
     (shaders, bindings, textures.is_some(), groups, &desc.groups).hash(&mut hasher);
     let file = format!("{:016x}.agreed", hasher.finish());
     let note = cache::folder("spirv").map(|folder| folder.join(file));
-    if let Some(warnings) = note.as_ref().and_then(|note| fs::read_to_string(note).ok()) {
-        return Ok(warnings.lines().map(str::to_owned).collect());
+    let known_before = note.as_ref().and_then(|note| fs::read_to_string(note).ok());
+    if let Some(agreed) = known_before.and_then(|text| serde_json::from_str(&text).ok()) {
+        return Ok(agreed);
     }
     let mut constants = Vec::new();
     let mut reflections = Vec::new();
@@ -72,12 +117,26 @@ pub fn check(
     let miss_groups = desc.groups.iter().skip(raygens).take(misses);
     let miss_shaders: Vec<_> = miss_groups.map(|group| group.general as usize).collect();
     check_payloads(&reflections, &miss_shaders)?;
-    check_stages(desc, shaders, &reflections)?;
+    check_stages(desc, groups, shaders, &reflections)?;
     check_hit_attributes(&reflections, &desc.groups)?;
-    let warnings = warnings(shaders, &reflections, hits);
+    let agreed = Agreed {
+        warnings: warnings(desc, groups, shaders, &reflections),
+        rays: reflections.iter().flat_map(|(path, shader)| shader.ray_records(path)).collect(),
+        formats: reflections.iter().flat_map(|(path, shader)| formats(path, shader)).collect(),
+    };
     // Failing to write the record only makes the next start slower.
-    let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
-    Ok(warnings)
+    let _ = note.map(|note| files::write_whole(&note, serde_json::to_string(&agreed)?.as_bytes()));
+    Ok(agreed)
+}
+
+/// The formats that a shader declares for images of set 0.
+fn formats(path: &str, shader: &Reflection) -> Vec<Declared> {
+    let declared = shader.image_formats().into_iter();
+    let declared = declared.filter_map(|(binding, format)| {
+        let format = image_format::layout(format)?.to_owned();
+        Some(Declared { shader: path.to_owned(), binding, format })
+    });
+    declared.collect()
 }
 
 /// Checks that each incoming payload matches an outgoing one of the pipeline, and a miss shader's matches that of
@@ -116,10 +175,26 @@ fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()
 /// suffices, and that none confuses its own payload with its caller's.
 fn check_stages(
     desc: &PipelineDesc,
+    groups: [usize; 4],
     shaders: &[Shader],
     reflections: &[(&str, Reflection)],
 ) -> Result<()> {
     use vk::ShaderStageFlags as Flags;
+    let kinds = [
+        (Flags::RAYGEN_KHR, ".raygen", ".rgen"),
+        (Flags::MISS_KHR, ".miss", ".rmiss"),
+        (Flags::empty(), ".hit", ""),
+        (Flags::CALLABLE_KHR, ".callable", ".rcall"),
+    ];
+    let kinds = kinds.into_iter().zip(groups);
+    let kinds = kinds.flat_map(|(kind, count)| std::iter::repeat_n(kind, count));
+    for (group, (right, line, extension)) in desc.groups.iter().zip(kinds) {
+        if let Some(Shader { path, .. }) =
+            shaders.get(group.general as usize).filter(|shader| shader.stage != right)
+        {
+            bail!("{path}: the line {line} names it; a shader of that kind ends in {extension}");
+        }
+    }
     for group in &desc.groups {
         for (number, stage, kind) in [
             (group.intersection, Flags::INTERSECTION_KHR, "an intersection shader, .rint"),
@@ -187,11 +262,27 @@ fn check_hit_attributes(shaders: &[(&str, Reflection)], groups: &[Group]) -> Res
 }
 
 /// Likely mistakes in the shaders (warnings).
-fn warnings(shaders: &[Shader], reflections: &[(&str, Reflection)], hits: usize) -> Vec<String> {
-    let of_each = reflections.iter().flat_map(|(path, shader)| shader.warnings(path, hits));
+fn warnings(
+    desc: &PipelineDesc,
+    [raygens, misses, hits, _]: [usize; 4],
+    shaders: &[Shader],
+    reflections: &[(&str, Reflection)],
+) -> Vec<String> {
+    let of_each = reflections.iter().flat_map(|(path, shader)| shader.warnings(path));
     let mut found: Vec<String> = of_each.collect();
     let any_hit = shaders.iter().find(|shader| shader.stage == vk::ShaderStageFlags::ANY_HIT_KHR);
     let never_asked = reflections.iter().all(|(_, shader)| shader.traces_opaque_alone());
+    let hit_groups = desc.groups.iter().skip(raygens + misses).take(hits).enumerate();
+    let silent = hit_groups.filter(|(_, group)| {
+        [group.closest_hit, group.any_hit].iter().all(|stage| *stage == vk::SHADER_UNUSED_KHR)
+    });
+    found.extend(silent.map(|(number, _)| {
+        format!(
+            "hit group {number} of '{}' has neither a closest hit nor an any-hit shader: a ray that hits leaves \
+             its payload as it was",
+            desc.name
+        )
+    }));
     found.extend(any_hit.filter(|_| never_asked).map(|Shader { path, .. }| {
         format!("{path} is never asked: every ray has the flag gl_RayFlagsOpaqueEXT")
     }));

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use anyhow::{Context, Result, bail, ensure};
 use rspirv::dr::{Module, Operand};
-use rspirv::spirv::{Decoration, Op, StorageClass};
+use rspirv::spirv::{Decoration, ImageFormat, Op, StorageClass};
 
 use crate::gpu::pipeline::desc::Binding;
 use crate::gpu::pipeline::layout::StructLayout;
@@ -202,6 +202,26 @@ impl Reflection {
             .collect();
         found.sort();
         found
+    }
+
+    /// The binding and the format of each image in set 0.
+    pub fn image_formats(&self) -> Vec<(u32, ImageFormat)> {
+        let globals = &self.module.types_global_values;
+        let by_id = |id: u32| globals.iter().find(|i| i.result_id == Some(id));
+        let variables = globals.iter().filter(|i| i.class.opcode == Op::Variable);
+        let formats = variables.filter_map(|variable| {
+            let id = variable.result_id?;
+            self.decoration(id, Decoration::DescriptorSet).filter(|set| *set == 0)?;
+            let pointer = by_id(variable.result_type?)?;
+            let Some(Operand::IdRef(pointee)) = pointer.operands.get(1) else { return None };
+            let image = by_id(*pointee).filter(|i| i.class.opcode == Op::TypeImage)?;
+            let format = image.operands.iter().find_map(|operand| match operand {
+                Operand::ImageFormat(format) => Some(*format),
+                _ => None,
+            });
+            Some((self.decoration(id, Decoration::Binding)?, format?))
+        });
+        formats.collect()
     }
 
     fn debug_name(&self, id: u32, member: Option<u32>) -> String {

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use crate::gpu::Asked;
 use crate::gpu::check::executable::Executable;
+use crate::gpu::check::table::Table;
 use crate::gpu::pipeline::desc::PipelineDesc;
 
 /// Counts and descriptions of the objects created on a device.
@@ -17,6 +19,10 @@ pub struct Statistics {
     pub pipeline_time: Duration,
     /// The description of every pipeline, in order of creation.
     pub descs: Vec<Arc<PipelineDesc>>,
+    /// Every shader binding table, in order of creation.
+    pub tables: Vec<Table>,
+    /// The hit records of the instances of the last top level, as far as known.
+    pub asked: Asked,
     /// Warnings about likely mistakes, each with the name of the pipeline or the structure.
     pub warnings: Vec<(String, String)>,
     /// The driver's compiler statistics for the last pipeline, if requested and supported.

@@ -8,13 +8,15 @@ use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use anyhow::{Context as _, Result};
 use ash::{Device, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use crate::files::cache;
+use crate::gpu::Asked;
+use crate::gpu::accel::Level;
 use crate::gpu::check::driver_shim::{DriverShim, Plain};
 use crate::gpu::check::statistics::Statistics;
 use crate::gpu::check::validation::{Heard, Messages};
@@ -22,6 +24,7 @@ use crate::gpu::device::instance::{Vulkan, WindowHandles};
 use crate::gpu::device::requirements::Requirements;
 use crate::gpu::device::threads;
 use crate::gpu::device::{self, Candidate};
+use crate::gpu::memory::arrays::Arrays;
 use crate::gpu::pipeline::cache::PipelineCache;
 use crate::output;
 
@@ -86,8 +89,9 @@ pub struct GpuContext {
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
-    /// The kind of geometry of each acceleration structure, by address.
-    levels: Mutex<BTreeMap<vk::DeviceAddress, vk::GeometryTypeKHR>>,
+    /// The existing acceleration structures, by address.
+    levels: Mutex<BTreeMap<vk::DeviceAddress, Weak<Level>>>,
+    arrays: Mutex<Arrays>,
     pub(in crate::gpu) command_pool: vk::CommandPool,
     names: ext::debug_utils::Device,
     /// The loader and the instance, destroyed last.
@@ -181,6 +185,7 @@ impl Gpu {
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
             levels: Mutex::default(),
+            arrays: Mutex::default(),
             command_pool,
             requirements: options.requirements,
             driver_shim: options.driver_shim,
@@ -248,21 +253,37 @@ impl Gpu {
         });
     }
 
-    /// The kind of geometry of a bottom level of this device at this address.
-    pub fn level_at(&self, address: vk::DeviceAddress) -> Option<vk::GeometryTypeKHR> {
-        self.levels().get(&address).copied()
+    /// The acceleration structure of this device at this address, if it still exists.
+    pub(crate) fn level_at(&self, address: vk::DeviceAddress) -> Option<Arc<Level>> {
+        self.levels().get(&address).and_then(Weak::upgrade)
     }
 
-    pub(in crate::gpu) fn note_level(&self, address: vk::DeviceAddress, kind: vk::GeometryTypeKHR) {
-        self.levels().insert(address, kind);
+    /// Notes the hit records of a top level's instances.
+    pub(crate) fn note_asked(&self, asked: &Asked) {
+        self.count(|statistics| statistics.asked = asked.clone());
+    }
+
+    pub(in crate::gpu) fn note_level(&self, level: &Arc<Level>) {
+        self.levels().insert(level.address, Arc::downgrade(level));
     }
 
     pub(in crate::gpu) fn forget_level(&self, address: vk::DeviceAddress) {
         self.levels().remove(&address);
     }
 
-    fn levels(&self) -> MutexGuard<'_, BTreeMap<vk::DeviceAddress, vk::GeometryTypeKHR>> {
+    fn levels(&self) -> MutexGuard<'_, BTreeMap<vk::DeviceAddress, Weak<Level>>> {
         self.levels.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The arrays that have an address.
+    pub(in crate::gpu) fn arrays(&self) -> MutexGuard<'_, Arrays> {
+        self.arrays.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// True if this run is validated.
+    pub(in crate::gpu) fn is_validated(&self) -> bool {
+        let messenger = self.vulkan.messenger.as_ref();
+        messenger.is_some_and(|messenger| messenger.messages.heard() == Heard::Mistakes)
     }
 
     /// Bytes of device memory in use, buffers and images together.

@@ -9,6 +9,7 @@ use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
 
 use crate::gpu::memory::Memory;
+use crate::gpu::memory::arrays::Array;
 use crate::gpu::memory::staging::{Staging, read_back};
 use crate::gpu::{Gpu, barrier};
 
@@ -77,7 +78,16 @@ impl Buffer {
             staging.fill_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
         }
         staging.submit()?;
-        let addresses = offsets.iter().map(|offset| buffer.address + offset).collect();
+        let addresses: Vec<_> = offsets.iter().map(|offset| buffer.address + offset).collect();
+        // Each array is known by its own length, so that no build reads into the next one.
+        if buffer.address != 0 {
+            let lengths = arrays.iter().map(|array| size_of_val(array.as_ref()) as u64);
+            for ((&address, offset), bytes) in addresses.iter().zip(offsets).zip(lengths) {
+                let name = name.to_owned();
+                let array = Array { name, buffer: buffer.handle, offset, bytes };
+                gpu.arrays().add(address, array);
+            }
+        }
         Ok((buffer, addresses))
     }
 
@@ -100,6 +110,10 @@ impl Buffer {
             "the buffer '{name}' takes {size} bytes, and {} has room for {most} in one",
             gpu.name
         );
+        let addressed = usage.contains(Usage::SHADER_DEVICE_ADDRESS);
+        // Under validation, the inputs of builds are read back and checked.
+        let is_read = addressed && gpu.is_validated();
+        let usage = if is_read { usage | Usage::TRANSFER_SRC } else { usage };
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
         // SAFETY: the device is alive; the buffer is destroyed on every path below.
         let handle = unsafe { gpu.device.create_buffer(&info, None) }
@@ -107,7 +121,6 @@ impl Buffer {
         let mut buffer = Self { handle, size, address: 0, memory: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
-        let addressed = usage.contains(Usage::SHADER_DEVICE_ADDRESS);
         let alignment = if addressed { gpu.limits.address_alignment() } else { 1 };
         requirements.alignment = requirements.alignment.max(alignment);
         let no_memory = || format!("no memory for the buffer '{name}' of {size} bytes");
@@ -131,6 +144,8 @@ impl Buffer {
                 "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
                 buffer.address
             );
+            let array = Array { name: name.to_owned(), buffer: handle, offset: 0, bytes: size };
+            gpu.arrays().add(buffer.address, array);
         }
         gpu.name_object(handle, name);
         Ok(buffer)
@@ -216,6 +231,9 @@ impl Buffer {
 
 impl Drop for Buffer {
     fn drop(&mut self) {
+        if self.address != 0 {
+            self.gpu.arrays().forget(self.address, self.size);
+        }
         // SAFETY: submissions are waited for, so the device no longer uses the buffer.
         unsafe { self.gpu.device.destroy_buffer(self.handle, None) };
     }

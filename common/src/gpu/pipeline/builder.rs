@@ -226,6 +226,10 @@ impl<'a> PipelineBuilder<'a> {
             "pipeline '{name}' needs a recursion depth of {recursion}; {} allows {limit}",
             gpu.name
         );
+        ensure!(
+            self.groups[0] > 0,
+            "pipeline '{name}' has no ray generation shader: the line .raygen(\"camera.rgen\") adds one"
+        );
         Ok(RayTracingPipeline {
             groups: self.groups,
             hit_records: Mutex::default(),
@@ -283,8 +287,14 @@ impl<'a> PipelineBuilder<'a> {
              is to be said in requirements(), so that devices are chosen by it",
             desc.name
         );
-        let warnings = interface_check::check(&desc, groups, &shaders, &known)?;
-        gpu.warn(&desc.name, warnings);
+        ensure!(
+            textures.is_none() || gpu.features.vulkan12.runtime_descriptor_array == vk::TRUE,
+            "pipeline '{}' has a texture table, and its sample does not ask for one: requirements() takes \
+             .textures()",
+            desc.name
+        );
+        let mut agreed = interface_check::check(&desc, groups, &shaders, &known)?;
+        gpu.warn(&desc.name, std::mem::take(&mut agreed.warnings));
         for (stage, shader) in desc.stages.iter_mut().zip(shaders) {
             (stage.stage, stage.words) = (shader.stage.as_raw(), shader.spirv);
         }
@@ -297,6 +307,7 @@ impl<'a> PipelineBuilder<'a> {
             layout,
             set_layout,
             textures: textures.map(|table| table.set),
+            agreed,
             desc: Arc::new(desc),
             build_time: Duration::ZERO,
             gpu: gpu.clone(),

@@ -58,6 +58,9 @@ unsafe impl<T: 'static> bytemuck::Pod for Address<T> {}
 pub trait ShaderType {
     /// Adds the declarations that shaders have under the same name: by default none.
     fn reach(_: &mut Known) {}
+
+    /// Adds the offsets of the addresses in a value that begins `_at` bytes from the start: by default none.
+    fn addresses(_at: usize, _found: &mut Vec<usize>) {}
 }
 
 /// Structures and enumerations declared in Rust and also in shaders.
@@ -106,11 +109,19 @@ impl<T: ShaderType> ShaderType for Address<T> {
     fn reach(known: &mut Known) {
         T::reach(known);
     }
+
+    fn addresses(at: usize, found: &mut Vec<usize>) {
+        found.push(at);
+    }
 }
 
 impl<T: ShaderType, const N: usize> ShaderType for [T; N] {
     fn reach(known: &mut Known) {
         T::reach(known);
+    }
+
+    fn addresses(at: usize, found: &mut Vec<usize>) {
+        (0..N).for_each(|element| T::addresses(at + element * size_of::<T>(), found));
     }
 }
 
@@ -192,6 +203,13 @@ macro_rules! shader_struct {
                 if known.add_struct(<Self as $crate::gpu::ShaderStruct>::LAYOUT) {
                     $(<$type as $crate::gpu::ShaderType>::reach(known);)+
                 }
+            }
+
+            fn addresses(at: usize, found: &mut Vec<usize>) {
+                $(<$type as $crate::gpu::ShaderType>::addresses(
+                    at + ::std::mem::offset_of!($name, $field),
+                    found,
+                );)+
             }
         }
     };

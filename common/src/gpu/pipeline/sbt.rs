@@ -10,6 +10,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Result, ensure};
 use ash::vk;
 
+use crate::gpu::check::table::Table;
 use crate::gpu::{Buffer, Gpu, Limits, RayTracingPipeline, barrier};
 
 /// A region of the table's buffer, in bytes.
@@ -159,6 +160,9 @@ impl ShaderBindingTable {
             first_group += count;
         }
         pipeline.knows_hit_records(hit);
+        let (desc, groups) = (pipeline.desc.clone(), pipeline.groups);
+        let hit = hit.iter().map(|record| record.group).collect();
+        gpu.count(|statistics| statistics.tables.push(Table { desc, groups, hit }));
         let usage = vk::BufferUsageFlags::SHADER_BINDING_TABLE_KHR
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let name = format!("{} shader binding table", pipeline.desc.name);

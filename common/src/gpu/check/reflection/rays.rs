@@ -6,6 +6,7 @@ use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op, StorageClass};
 
 use super::Reflection;
+use crate::gpu::pipeline::RayRecord;
 
 /// `gl_RayFlagsOpaqueEXT`: no any-hit shader is called.
 const OPAQUE: u32 = 1;
@@ -14,7 +15,10 @@ const OPAQUE: u32 = 1;
 const FLAGS: usize = 1;
 const CULL_MASK: usize = 2;
 const RECORD_OFFSET: usize = 3;
+const RECORD_STRIDE: usize = 4;
 const MISS_INDEX: usize = 5;
+const TMIN: usize = 7;
+const TMAX: usize = 9;
 
 /// The payload of a trace.
 #[derive(Debug, PartialEq, Eq)]
@@ -114,21 +118,33 @@ impl Reflection {
         Ok(())
     }
 
-    /// Warnings: a ray whose mask excludes every instance, and one whose record index exceeds a table with one
-    /// record per hit group of the pipeline.
-    pub fn warnings(&self, path: &str, hit_groups: usize) -> Vec<String> {
+    /// Warnings: a ray whose mask excludes every instance, and one that ends before it begins.
+    pub fn warnings(&self, path: &str) -> Vec<String> {
         let blind = self.operands(CULL_MASK).find(|mask| *mask == 0).map(|_| {
             format!("{path}: a ray has the cull mask 0, which every instance's mask hides from it")
         });
-        let beyond = self.operands(RECORD_OFFSET).find(|offset| *offset as usize >= hit_groups);
-        let beyond = beyond.filter(|_| hit_groups > 0).map(|offset| {
-            format!(
-                "{path}: a ray has the sbtRecordOffset {offset}, and the pipeline has {hit_groups} hit group{}: \
-                 such a record is there only if ShaderBindingTable::with_hit_records makes it",
-                if hit_groups == 1 { "" } else { "s" }
-            )
+        let number = |operand: Option<&Operand>| self.constant(operand).map(f32::from_bits);
+        let backward = self.traces().find_map(|trace| {
+            let (tmin, tmax) = (number(trace.get(TMIN))?, number(trace.get(TMAX))?);
+            (tmin > tmax).then_some((tmin, tmax))
         });
-        blind.into_iter().chain(beyond).collect()
+        let backward = backward.map(|(tmin, tmax)| {
+            format!("{path}: a ray begins at tmin = {tmin:e} and ends before, at tmax = {tmax:e}: it hits nothing")
+        });
+        blind.into_iter().chain(backward).collect()
+    }
+
+    /// The rays whose part of a hit record's number is constant. Devices use four bits of each number.
+    pub fn ray_records(&self, path: &str) -> Vec<RayRecord> {
+        let rays = self.traces().filter_map(|trace| {
+            Some(RayRecord {
+                shader: path.to_owned(),
+                offset: self.constant(trace.get(RECORD_OFFSET))? & 0xf,
+                stride: self.constant(trace.get(RECORD_STRIDE))? & 0xf,
+                flags: self.constant(trace.get(FLAGS)),
+            })
+        });
+        rays.collect()
     }
 
     /// True if no ray of the shader can call an any-hit shader, according to its constant flags.

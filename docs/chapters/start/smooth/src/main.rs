@@ -1,0 +1,144 @@
+//! A scene in the sun, with a mirror.
+
+use std::f32::consts::TAU;
+use std::path::Path;
+use std::process::ExitCode;
+
+use raybook::prelude::*;
+
+/// The scene, unless `--scene` names another file.
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scene.obj");
+
+fn main() -> ExitCode {
+    raybook::run!(Demo)
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipeline: RayTracingPipeline,
+    sbt: ShaderBindingTable,
+    camera: Camera,
+    sun: Sun,
+    reflections: u32,
+    moon: f32,
+    radius: f32,
+    lamps: Buffer,
+    lamp_count: u32,
+    grid: u32,
+}
+
+raybook::shader_struct! {
+    /// A lamp; `push.glsl` declares the same fields.
+    struct Lamp {
+        position: Vec3,
+        intensity: Vec3,
+    }
+}
+
+raybook::shader_struct! {
+    /// Push constants of all shaders; `push.glsl` declares the same fields.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        lamps: Address<Lamp>,
+        lamp_count: u32,
+        sun: DirectionalLight,
+        reflections: u32,
+        moon: f32,
+        radius: f32,
+        center: Vec3,
+        grid: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let world = setup.scene_or(|| Scene::open(Path::new(SCENE)))?;
+        let mut scene = SceneOnGpu::new(gpu, &world, setup.options)?;
+        // A box that holds the largest sphere, and a little more.
+        let bounds = [Vec3::new(0.1, -0.1, 0.1), Vec3::new(1.7, 1.5, 1.7)];
+        let boxes = boxes_on_gpu(gpu, "sphere", &[bounds])?;
+        let shape = [Geometry::Aabbs { boxes: boxes.address, count: 1, opaque: true }];
+        let sphere = AccelerationStructure::bottom(gpu, "sphere", &shape, BuildOptions::default())?;
+        // A new top level: the meshes use hit record 0, and the sphere hit record 1.
+        let meshes = world.instances.iter().enumerate();
+        let meshes =
+            meshes.map(|(i, at)| instance_on_gpu(&at.transform, i, 0, &scene.blas[at.mesh]));
+        // The custom index is that of the last mesh, whose material the sphere borrows.
+        let last = world.instances.len() - 1;
+        let sphere_instance = instance_on_gpu(&Affine3A::IDENTITY, last, 1, &sphere);
+        scene.tlas = build_top(gpu, &meshes.chain([sphere_instance]).collect::<Vec<_>>())?;
+        // The top level refers to it, so it must live as long.
+        scene.blas.push(sphere);
+        // Six lamps in a ring, from blue to red. They stay in memory as long as the buffer lives.
+        let lamp = |i: u8| {
+            let (x, z) = (TAU * f32::from(i) / 6.0).sin_cos();
+            let position = Vec3::new(1.9 * x, 0.35, 1.9 * z);
+            Lamp { position, intensity: Vec3::new(0.03 * f32::from(i), 0.04, 0.15) }
+        };
+        let lamps: Vec<Lamp> = (0..6).map(lamp).collect();
+        let lamps = Buffer::with_data(gpu, "lamps", &lamps, input_usage())?;
+        let pipeline = RayTracingPipeline::builder("my_tracer")
+            .raygen("camera.rgen")
+            .miss("common/sky.rmiss")
+            .miss("common/shadow.rmiss")
+            .hit(HitGroup::triangles().closest_hit("mesh.rchit"))
+            .hit(HitGroup::procedural("sphere.rint").closest_hit("sphere.rchit"))
+            .binding(Binding::AccelerationStructure)
+            .binding(Binding::StorageImage)
+            .textures(&scene.textures)
+            .push_constants::<Push>()
+            .build(gpu)?;
+        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        let (camera, sun) = (world.camera, Sun::default());
+        let (reflections, moon, radius, lamp_count) = (3, 1.0, 0.6, 6);
+        let grid = 4;
+        Ok(Self {
+            scene,
+            pipeline,
+            sbt,
+            camera,
+            sun,
+            reflections,
+            moon,
+            radius,
+            lamps,
+            lamp_count,
+            grid,
+        })
+    }
+
+    fn controls(&mut self, c: &mut Controls) {
+        c.integer("reflections", &mut self.reflections, 0..=8);
+        c.sun(&mut self.sun);
+        c.integer("lamps", &mut self.lamp_count, 0..=6);
+        c.slider("radius", &mut self.radius, 0.1..=0.7);
+        c.slider("moon", &mut self.moon, 0.0..=3.0);
+        c.integer("grid", &mut self.grid, 1..=8);
+        c.camera(&mut self.camera);
+    }
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            lamps: self.lamps.address.into(),
+            lamp_count: self.lamp_count,
+            sun: self.sun.light(),
+            reflections: self.reflections,
+            moon: self.moon,
+            radius: self.radius,
+            center: Vec3::new(0.9, self.radius, 0.9),
+            grid: self.grid,
+        };
+        let tlas = Descriptor::AccelerationStructure(&self.scene.tlas);
+        let picture = Descriptor::StorageImage(frame.image);
+        self.pipeline.bind(frame.cmd, &[tlas, picture], &push)?;
+        self.sbt.trace(frame.cmd, frame.area);
+        Ok(())
+    }
+}
