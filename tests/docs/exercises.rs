@@ -301,7 +301,10 @@ fn who_waits_is_told_for_what() {
     fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("it may be run");
     for (name, what) in [
         ("02.3", "waiting: building 02_basic"),
-        ("01.1", "waiting: building all programs and the tests of samples, minutes if they are not built yet"),
+        (
+            "01.1",
+            "waiting: building all programs and the tests of samples, minutes if they are not built yet",
+        ),
     ] {
         let outcome = run(fixture.command(&["exercise", name, "--check"]).env("CARGO", &cargo));
         assert_eq!(outcome.code, 1, "{}", outcome.err);
