@@ -224,10 +224,11 @@ impl<'a> NewChapter<'a> {
         format!(
             "# {heading}\n\n![WRITE](images/{name}.png)\n\n<!-- picture -->\n```sh\n\
              cargo run --bin {name} -- --headless --size 960x600 --out docs/images/{name}.png\n```\n\n\
-             > **Exact:** WRITE **Price:** WRITE **Without it:** WRITE\n\n\
              ## What you will learn\n\nWRITE\n\n## What changed since {parent}\n\n\
              <!-- diff {from} {name} main.rs -->\n<!-- /diff -->\n\n## How it works\n\nWRITE\n\n\
-             ## What accuracy costs here\n\nWRITE\n\n## Hard cases\n\nWRITE\n\n## Controls\n\n\
+             ## What accuracy costs here\n\n\
+             > **Exact:** WRITE **Price:** WRITE **Without it:** WRITE\n\n\
+             WRITE\n\n## Hard cases\n\nWRITE\n\n## Controls\n\n\
              <!-- controls {name} -->\n<!-- /controls -->\n\n## Try it\n\n\
              <!-- exercises {name} -->\n<!-- /exercises -->\n\n\
              <!-- stamp -->\n<!-- /stamp -->\n\n## Sources\n\nWRITE\n"

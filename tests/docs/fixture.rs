@@ -207,7 +207,7 @@ fn main() {
     (
         "docs/01_one.md",
         r#"# 01 · One
-> **Exact:** all of it. **Price:** none. **Without it:** nothing.
+All of it is exact, and costs nothing.
 ![The picture](images/01_one.png)
 
 <!-- picture -->
@@ -245,7 +245,7 @@ Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_o
     (
         "docs/02_basic.md",
         r#"# 02 · Basic
-> **Exact:** all of it. **Price:** none. **Without it:** nothing.
+All of it is exact, and costs nothing.
 <!-- picture -->
 ```sh
 cargo run --bin 02_basic -- --headless --size 32x20 --out basic.png
