@@ -65,8 +65,8 @@ fn what_is_still_to_be_written_is_named_wherever_it_stands() {
             "; write what belongs here",
         ),
         (
-            "a box",
-            |f| f.replace("docs/01_one.md", "**Price:** none.", "**Price:** WRITE"),
+            "a sentence",
+            |f| f.replace("docs/01_one.md", "costs nothing.", "costs WRITE."),
             "docs/01_one.md:2: 'WRITE' holds a place for something",
             "; write what belongs here",
         ),

@@ -12,7 +12,7 @@ const TIMEOUT: i32 = 2;
 fn counted(sample: &str, layer: &Layer, calls: &Path) -> Output {
     let mut command = layer.command(sample);
     command.args(["--headless", "--size", "8x8"]).env("CALLS", calls);
-    command.output().expect("the sample starts")
+    command.arg("--out").arg(calls.with_extension("png")).output().expect("the sample starts")
 }
 
 /// Lets calls of a sample fail; whether each is answered.
@@ -44,7 +44,8 @@ fn is_safe_on_a_card(numbers: impl Fn(usize) -> Vec<usize>) -> bool {
     let run = |layer: &Layer, calls: &Path| {
         let mut command = run::command("02_basic");
         command.envs(layer.above(&card)).env("CALLS", calls);
-        command.args(["--headless", "--size", "8x8"]).output().expect("the sample starts")
+        command.args(["--headless", "--size", "8x8", "--out"]).arg(calls.with_extension("png"));
+        command.output().expect("the sample starts")
     };
     each_is_answered("02_basic", run, numbers)
 }

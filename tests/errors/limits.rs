@@ -15,6 +15,7 @@ const HEAD: &str =
 fn run(chapter: &str, folder: &TempDir, name: &str) -> (String, Spent) {
     let mut command = run::command(chapter);
     command.current_dir(folder).args(["--headless", "--size", "8x8", "--scene", name]);
+    command.args(["--out", "a.png"]);
     let spent = run::spend(&mut command);
     let line = String::from_utf8_lossy(&spent.output.stderr).into_owned();
     println!("{} bytes, {:?}: {line}", spent.memory, spent.time);

@@ -97,7 +97,15 @@ impl Shown {
         let folder = tempfile::tempdir().unwrap();
         (self.write)(folder.path(), count);
         let mut command = run::command(self.chapter);
-        command.current_dir(&folder).args(["--headless", "--size", "8x8", "--scene", self.file]);
+        command.current_dir(&folder).args([
+            "--headless",
+            "--size",
+            "8x8",
+            "--scene",
+            self.file,
+            "--out",
+            "a.png",
+        ]);
         let spent = run::spend(&mut command);
         let errors = String::from_utf8_lossy(&spent.output.stderr);
         assert!(spent.output.status.success() && errors.is_empty(), "{errors}");

@@ -41,7 +41,8 @@ fn rays_are_answered_on_the_narrowest_device() {
 #[test]
 fn what_is_singular_or_is_so_but_for_rounding_is_left_out() {
     let (a, b) = (Vec3::new(0.1, 0.7, -0.3), Vec3::new(-0.9, 0.2, 0.6));
-    for third in [a * 0.3 + b * 0.7, a * 3.1 - b, Vec3::ZERO, Vec3::X * 1e-39] {
+    // A column of zeros does not come so far: the scene is refused.
+    for third in [a * 0.3 + b * 0.7, a * 3.1 - b, Vec3::X * 1e-39] {
         assert_eq!(met([a, b, third]), 0, "{third}");
     }
 }
