@@ -58,7 +58,8 @@ fn holes_without_texture_coordinates_are_a_warning() {
         .save(folder.path().join("a.png"))
         .unwrap();
     let scene = folder.path().join("a.obj");
-    let arguments = ["--headless", "--size", "8x8", "--scene", scene.to_str().unwrap()];
+    let arguments =
+        ["--headless", "--validate", "--size", "8x8", "--scene", scene.to_str().unwrap()];
     let output = run::command(NAME).args(arguments).output().unwrap();
     assert!(output.status.success());
     assert_eq!(
