@@ -153,7 +153,7 @@ fn cost(comparison: &Comparison, name: &str) -> Option<f64> {
     let changed = comparison.values.iter().find(|measured| measured.value == name)?;
     let (ratio, noise) = (changed.ratio, comparison.noise);
     let differs = ratio.low > noise.high.max(1.0) || ratio.high < noise.low.min(1.0);
-    differs.then(|| own * (ratio.median - 1.0))
+    differs.then_some(own * (ratio.median - 1.0))
 }
 
 /// Instructions of every pipeline of the run, in the order in which they were made.

@@ -101,7 +101,7 @@ pub(super) fn check_transform(columns: [DVec3; 3], translation: DVec3) -> Result
     let is_finite = columns.iter().chain([&translation]).all(|column| column.is_finite());
     ensure!(is_finite, "its transform is not finite: {x}, {y}, {z}, {translation}");
     // Lengths are divided out: products of small ones vanish even in 64 bits.
-    let is_flat = columns.iter().any(|column| *column == DVec3::ZERO)
+    let is_flat = columns.contains(&DVec3::ZERO)
         || x.normalize().dot(y.normalize().cross(z.normalize())) == 0.0;
     ensure!(!is_flat, "its transform has no inverse, it makes everything flat: {x}, {y}, {z}");
     Ok(())

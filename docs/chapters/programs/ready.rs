@@ -25,8 +25,8 @@ pub fn build(programs: &Programs, names: &[&str]) -> Result<()> {
     if programs.are_released() {
         cargo.arg("--release");
     }
-    match child::show(&mut cargo)?.success() {
-        true => Ok(()),
-        false => bail!("{} cannot be built", stale.join(", ")),
+    if !child::show(&mut cargo)?.success() {
+        bail!("{} cannot be built", stale.join(", "));
     }
+    Ok(())
 }
