@@ -144,7 +144,7 @@ fn no_corner_of_a_blade_has_an_angle_beyond_pi() {
                 float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
                 vec2 u = vec2(turn / 16777216.0, 1.0 - 1.0 / 16777216.0);\n\
                 uint corners = uint(at.x) % 17;\n\
-                vec2 point = corners < 3 ? disk_point(at.x < 17 ? u : u.yx)\n\
+                vec2 point = corners < 3 ? concentric_point(at.x < 17 ? u : u.yx)\n\
                                          : polygon_point(corners, at.x < 17 ? 0.0 : u.x, u);\n\
                 answer = vec4(widest, point, 0.0);";
     let picture = run::evaluate(&noting, body, "34x64");
