@@ -28,7 +28,7 @@ use desk::{Desk, KEY_COMMA, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_PERIOD, KEY_SPACE,
 /// The slider "sun azimuth" in the panel, from end to end.
 const SLIDER: [(i16, i16); 2] = [(140, 236), (250, 236)];
 /// The checkbox "light shadows" in the panel of chapter 25.
-const LIGHT_SHADOWS: (i16, i16) = (163, 433);
+const LIGHT_SHADOWS: (i16, i16) = (163, 461);
 /// The right edge of the panel.
 const PANEL: u32 = 352;
 /// The panel's background where it tells of an error.
