@@ -3,7 +3,8 @@
 pub use crate::app::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 pub use crate::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
-    HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable, padded,
+    HitGroup, Image, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable, barrier,
+    padded,
 };
 pub use crate::model::Model;
 pub use crate::scene::{

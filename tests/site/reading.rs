@@ -355,7 +355,7 @@ fn pictures() {
     let mut browser = Browser::start();
     let pages = [
         "index.html",
-        "02_basic.html#at-the-nearest-hit",
+        "02_basic.html#what-does-a-closest-hit-shader-know",
         "05_shadow_miss.html",
         "05_shadow_miss-code.html#shaders-05_shadow_miss-camera-rgen",
         "wrong-pictures.html",
