@@ -1,12 +1,13 @@
-//! The moving picture at the head of the README: what chapters 02 to 25 render, one after the other.
+//! The moving picture of the README: the heading pictures of all chapters, each under its name for a second.
 
 use anyhow::{Context, Result};
 use color_quant::NeuQuant;
 use common::files::write_whole;
-use image::RgbaImage;
 use image::imageops::FilterType;
+use image::{DynamicImage, RgbaImage};
 use manuscript::fault::Fault;
-use manuscript::project::{Project, README};
+use manuscript::project::{Chapter, Project, README};
+use panels::{Panel, sheet};
 use png::{ColorType, Compression, Encoder};
 
 use super::stamp::{self, Maker};
@@ -15,19 +16,10 @@ use super::stamp::{self, Maker};
 pub const FILE: &str = "docs/images/tour.png";
 /// The command that makes it.
 pub const COMMAND: &str = "cargo chapters tour";
-const SIZE: [u32; 2] = [400, 250];
-/// The time of each picture, in hundredths of a second: with fewer than three changes a second, nobody is
-/// in danger from flashes (WCAG 2.2, criterion 2.3.1).
-const DELAY: u16 = 36;
-
-/// The pictures that it shows, in order.
-fn frames(project: &Project) -> Vec<String> {
-    let shown = |number: &str| ("02"..="25").contains(&number);
-    let chapters = project.chapters.iter().filter(|chapter| shown(chapter.number()));
-    let mut files: Vec<String> = chapters.map(|chapter| chapter.picture()).collect();
-    files.sort_unstable();
-    files
-}
+/// The size of a chapter's picture in it, without the name above.
+const PICTURE: (u32, u32) = (400, 250);
+/// The time of each picture, in hundredths of a second.
+const DELAY: u16 = 100;
 
 /// True if the README shows it.
 pub fn is_shown(project: &Project) -> bool {
@@ -42,14 +34,14 @@ pub fn check(project: &Project) -> Option<Fault> {
     Some(Fault::new(README, line, what, format!("run: {COMMAND}")))
 }
 
-/// Makes it, and says how many pictures it shows, and how many bytes it has.
+/// Makes it, and reports how many pictures and bytes it has.
 ///
 /// # Errors
 /// If a chapter's picture cannot be read, or the moving one not be written.
 pub fn make(project: &Project) -> Result<String> {
     let bytes = bytes(project)?;
     write_whole(&project.root.join(FILE), &bytes)?;
-    Ok(format!("{FILE}: {} pictures, {} bytes\n", frames(project).len(), bytes.len()))
+    Ok(format!("{FILE}: {} pictures, {} bytes\n", project.chapters.len(), bytes.len()))
 }
 
 /// Its bytes, from the chapters' pictures as they are.
@@ -57,24 +49,29 @@ pub fn make(project: &Project) -> Result<String> {
 /// # Errors
 /// If one cannot be read.
 pub fn bytes(project: &Project) -> Result<Vec<u8>> {
-    let files = frames(project);
-    animated(&files.iter().map(|file| frame(project, file)).collect::<Result<Vec<_>>>()?)
+    let mut chapters: Vec<_> = project.chapters.iter().collect();
+    chapters.sort_unstable_by_key(|chapter| chapter.number());
+    let frame = |chapter: &&Chapter| frame(project, chapter);
+    animated(&chapters.iter().map(frame).collect::<Result<Vec<_>>>()?)
 }
 
-fn frame(project: &Project, file: &str) -> Result<RgbaImage> {
-    let picture = image::open(project.root.join(file)).with_context(|| file.to_owned())?;
-    let [width, height] = SIZE;
-    Ok(picture.resize_exact(width, height, FilterType::Lanczos3).into_rgba8())
+/// A chapter's picture under its name.
+fn frame(project: &Project, chapter: &Chapter) -> Result<RgbaImage> {
+    let file = chapter.picture();
+    let picture = image::open(project.root.join(&file)).context(file)?;
+    let picture = picture.resize_exact(PICTURE.0, PICTURE.1, FilterType::Lanczos3).into_rgb8();
+    let framed = sheet(PICTURE, &[vec![(chapter.heading(), Panel::Picture(picture))]])?;
+    Ok(DynamicImage::ImageRgb8(framed).into_rgba8())
 }
 
 /// The frames in 256 colors, played once; whoever shows no moving pictures shows the last one.
 fn animated(frames: &[RgbaImage]) -> Result<Vec<u8>> {
-    /// Every so many pixels are asked which colors there should be.
+    /// The palette is chosen from every so many pixels.
     const EVERY: i32 = 7;
     let all: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw()).copied().collect();
     let colors = NeuQuant::new(EVERY, 256, &all);
     let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, SIZE[0], SIZE[1]);
+    let mut encoder = Encoder::new(&mut bytes, frames[0].width(), frames[0].height());
     encoder.set_color(ColorType::Indexed);
     encoder.set_palette(colors.color_map_rgb());
     encoder.set_compression(Compression::High);
