@@ -933,7 +933,7 @@ impl Candidate {
 fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
     let devices = match unsafe { instance.enumerate_physical_devices() } {
-        // What loaders say where drivers are installed, but none of them finds its device.
+        // The error of loaders where drivers are installed but none finds its device.
         Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
         devices => devices?,
     };

@@ -91,7 +91,7 @@ impl Sample for Demo {
         c.choice("show", &mut self.show);
         c.sun(&mut self.sun);
         let deepest = self.recursion.controls(c);
-        // What a loop may do can be too deep for this device's recursion.
+        // A depth that the loop allows can be too deep for this device's recursion.
         self.depth = self.depth.min(deepest);
         c.integer("depth", &mut self.depth, 0..=deepest);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);

@@ -131,7 +131,7 @@ fn pipeline(
     textures: &TextureTable,
     constants: Constants,
 ) -> Result<RayTracingPipeline> {
-    // What cannot be called is left out: a device may treat a pipeline without callable shaders otherwise.
+    // Callables that no instance uses are left out: a device may compile a pipeline without them differently.
     let callables: &[&str] = match constants.choose {
         Choose::Callable => {
             &["marble.rcall", "wood.rcall", "checker.rcall", "sun.rcall", "lamp.rcall"]

@@ -52,7 +52,7 @@ impl Levels {
         let order = world.order(gpu, 0);
         let bytes = world.instances(0, &order, &bottom);
         let bytes: Vec<u8> = bytes.iter().flat_map(instance_bytes).collect();
-        // What is recorded into the buffer must be a copy's target.
+        // The copy that is recorded needs its target to allow one.
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let instances = Buffer::with_data(gpu, "instances", &bytes, usage)?;
         let count = order.len() as u32;

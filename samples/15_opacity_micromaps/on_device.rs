@@ -12,7 +12,7 @@ use crate::micromaps::Pair;
 pub struct OnDevice {
     /// All instances, with the same custom indices as in the scene's own.
     pub tlas: AccelerationStructure,
-    // What the top level names, and what that names: they go after it.
+    // The structures behind the addresses in the top level, dropped after it.
     _blas: BTreeMap<Pair, (AccelerationStructure, OpacityMicromap)>,
 }
 

@@ -126,7 +126,7 @@ impl Strands {
     /// Hair on the heads of three pawns, each strand four segments that end in a tip.
     fn hair(&mut self, hairs: u32, material: u32) {
         const HEAD: f32 = 0.187;
-        // How much it stands up, falls, and turns; and its length.
+        // Rise, fall and turn of the hair, and its length.
         let styles = [(0.9, 0.05, 0.0, 0.42), (0.0, 0.75, 0.0, 0.62), (0.2, 0.42, 0.75, 0.5)];
         for hair in 0..hairs {
             let pawn = hair % 3;

@@ -53,7 +53,7 @@ fn tube(mesh: &mut Mesh, nodes: &[Node], sides: u32) {
         let along = (before + directions[i.min(last)]).normalize_or(before);
         let kept = side - side.dot(along) * along;
         side = kept.try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
-        // How far from the middle of the cap it ends, as an angle: the body leans, and touches the ball there.
+        // The angle from the middle of the cap to its end: the body leans, and touches the ball there.
         let steps = if i == 0 || i > last { sides.div_ceil(4) } else { 0 };
         let pair = &nodes[i.min(last)..][..2];
         let lean = (pair[1].radius - pair[0].radius) / (pair[1].center - pair[0].center).length();

@@ -55,7 +55,7 @@ impl HeightfieldShape {
         let across = 8.0 * U * 2.0 * (gx * reach.x + gz * reach.z) + 3.0 * U;
         // The products with each other and with a, b and k, and the sum.
         let height = a * (along_x + along_z + 2.0 * U) + b * (across + U) + 2.0 * U * (a + b);
-        // What is rounded twice is of the order of U².
+        // Errors of two roundings are of the order of U².
         (place + k * height) * (1.0 + 1e-6)
     }
 }

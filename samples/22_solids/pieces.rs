@@ -14,7 +14,7 @@ pub fn lens(material: &'static str) -> Solid {
 pub fn die() -> Solid {
     let mut body = block(Vec3::NEG_ONE, Vec3::ONE);
     body.push(ball(Vec3::ZERO, 1.42));
-    // What is where on a face: middle, two diagonals, and the sides between.
+    // The places on a face: middle, two diagonals, and between the sides.
     let (near, far) = (Vec2::splat(0.48), Vec2::new(0.48, -0.48));
     let side = Vec2::new(0.48, 0.0);
     let faces: [(Vec3, &[Vec2]); 6] = [

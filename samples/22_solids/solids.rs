@@ -132,7 +132,7 @@ impl SolidsOnGpu {
             let (solid, mut clips) = modifiers.of(&solid_instance.solid, solid_instance.clip);
             let [first_part, part_count, first_step, step_count] =
                 programs.add(&solid, &|name| scenes::material(&scene.model, name));
-            // What has no end is clipped by the largest box, as if the user had said so.
+            // A solid without end is clipped by the largest box, as if the user had asked for it.
             let (low, high) = solid.bounds()[1];
             if low.min_element() <= -f64::from(REACH) || high.max_element() >= f64::from(REACH) {
                 clips.extend(block(Vec3::splat(-REACH), Vec3::splat(REACH)));

@@ -95,7 +95,7 @@ impl Levels {
                 (AccelerationStructure::build(gpu, &inputs, options)?, 0)
             }
         };
-        // What is recorded into a buffer must be a copy's target. The rest names no bottom level: it is inactive.
+        // The recorded copy needs its target to allow one. All other instances name no bottom level: they are inactive.
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let count = world.count() + copies;
         let instances = Buffer::with_data(gpu, "instances", &vec![[0u8; 64]; count], usage)?;

@@ -30,7 +30,7 @@ const MOST_REPEATS_ON_A_GPU: u32 = 16;
 const MOST_COPIES: u32 = 1024;
 const MOST_ASKED: u32 = 1 << 24;
 
-/// What to measure.
+/// The measurements to make.
 pub struct Plan<'a> {
     /// Rungs of these primitives; of all if there are none.
     pub only: &'a [Primitive],

@@ -53,11 +53,11 @@ impl AliasTable {
         let all = count as u64 * UNITS;
         let share = |weight: &f64| {
             let share = (whole(weight) * u128::from(all) / sum) as u64;
-            // What is never chosen would be missing from the picture.
+            // An emitter that is never chosen would be missing from the picture.
             share.max(u64::from(*weight > 0.0))
         };
         let mut shares: Vec<u64> = weights.iter().map(share).collect();
-        // What rounding has left over or taken too much, less than a part for each, the strongest bears.
+        // The strongest takes the error of rounding, less than one part per emitter.
         let strongest = weights.iter().position(|weight| *weight == most).unwrap_or(0);
         let others = shares.iter().sum::<u64>() - shares[strongest];
         shares[strongest] = all - others;

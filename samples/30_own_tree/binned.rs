@@ -1,7 +1,7 @@
 //! A tree from the top down, by the surface area heuristic over a few planes.
 //!
-//! What a plane would cost follows from the boxes and the counts on its two sides (MacDonald and Booth 1990).
-//! Instead of a plane beside each primitive, 15 along each axis are looked at: the primitives are counted
+//! The cost of a plane follows from the boxes and the counts on its two sides (MacDonald and Booth 1990).
+//! Instead of a plane beside each primitive, 15 along each axis are tried: the primitives are counted
 //! in 16 bins between them (Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007).
 
 use std::num::NonZero;

@@ -160,7 +160,7 @@ mod tests {
         words.fill_with(&mut word);
         tree.order.fill_with(&mut word);
         let checked = check_links(&tree, order);
-        // What is computed of any bytes ends, whatever it says.
+        // A walk through any bytes ends.
         assert!(
             depth(&tree).is_err()
                 || checked.is_ok()

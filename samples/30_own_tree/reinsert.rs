@@ -78,7 +78,7 @@ impl Linked {
             return None;
         }
         let sibling = self.other(above, part);
-        // What is left of `above` without the part, and the areas that are saved below and by it.
+        // The part of `above` that stays, and the areas saved below and by it.
         let (mut rest, mut saved) = (self[sibling].hull, self[above].area);
         let mut stack = vec![(sibling, saved)];
         loop {

@@ -24,7 +24,7 @@ impl Order {
             Order::AlongX => order.sort_by_key(|&i| cell(i)[0]),
             Order::Morton => order.sort_by_cached_key(|&i| morton(cell(i))),
             Order::Hilbert => order.sort_by_cached_key(|&i| hilbert(cell(i))),
-            // What every other chapter builds in.
+            // The order of all other chapters.
             Order::Halves => order = order::kd_median(bounds),
         }
         order

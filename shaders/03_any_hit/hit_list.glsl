@@ -28,7 +28,7 @@ vec3 heat(float x) {
     return mix(middle, vec3(1.0, 0.96, 0.85), clamp(3.0 * x - 2.0, 0.0, 1.0));
 }
 
-// What the picture shows of a list: the count as a heat map, or the surface at one depth.
+// The picture of a list: the count as a heat map, or the surface at one depth.
 vec4 show_list(uint pixel, uint count) {
     uint first = pixel * MAX_HITS;
     uint listed = min(count, MAX_HITS);

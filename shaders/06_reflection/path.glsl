@@ -22,7 +22,7 @@ void gather(inout Path path, vec4 seen) {
     }
 }
 
-// Whether the next ray is worth tracing.
+// True if the next ray is worth tracing.
 bool goes_on(Path path) {
     float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
     return path.bounce <= push.depth && contribution > 0.0
@@ -30,7 +30,7 @@ bool goes_on(Path path) {
 }
 // ANCHOR_END: path
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights a hit, adds its light to the path, and sets up the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
     vec3 color = hit.color;
@@ -42,7 +42,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         if (material.illumination >= ILLUMINATION_MIRROR) {
             mirror = fresnel(material.specular, max(dot(hit.normal, -ray.direction), 0.0));
         }
-        // What is reflected does not reach the colour below.
+        // Reflected light does not reach the colour below.
         hit.color *= 1.0 - mirror;
         visible = visibility(start, push.light.direction, 1e30);
         color = material.emission + hit.color * ambient(hit.normal)

@@ -1,4 +1,4 @@
-// What the looks share: the data of the record, the surface, and a polished finish.
+// The parts that all looks share: the data of the record, the surface, and a polished finish.
 #include "push.glsl"
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
@@ -55,7 +55,7 @@ vec3 polished(vec3 base, vec3 normal) {
     return mix(color, sky(reflect(-view, normal)), fresnel * (1.0 - look.roughness));
 }
 
-// What a look answers: its colour, or the number of its group or record.
+// The result of a look: its colour, or the number of its group or record.
 vec4 answer(uint group, vec3 color) {
     if (push.show == SHOW_GROUP) {
         return vec4(GROUP_COLOR[group], group);

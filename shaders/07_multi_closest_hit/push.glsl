@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants and what `show` may be.
+// The push constants of this chapter's shaders, and the values of `show`.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"

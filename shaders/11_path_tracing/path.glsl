@@ -32,7 +32,7 @@ void gather(inout Path path, vec3 seen) {
 // The largest probability that a path survives a turn: even in a room that swallows nothing, it ends one day.
 const float LIKELIEST = 0.95;
 
-// Whether the next ray is worth tracing.
+// True if the next ray is worth tracing.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
     if (path.bounce > push.depth || contribution <= 0.0) {

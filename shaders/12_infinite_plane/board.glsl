@@ -1,4 +1,4 @@
-// What lies on the plane: squares, or one colour.
+// The surface of the plane: squares, or one colour.
 #include "common/scene.glsl"
 #include "common/hit.glsl"
 #include "common/plane.glsl"
@@ -33,7 +33,7 @@ float shininess(float roughness) {
     return 2.0 / (width * width) - 2.0;
 }
 
-// What the board is made of, its colour apart.
+// The material of the board, without its colour.
 MaterialRecord board_material(Board board) {
     MaterialRecord material;
     material.specular = vec3(board.specular);

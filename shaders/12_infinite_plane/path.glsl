@@ -23,7 +23,7 @@ void gather(inout Path path, vec4 seen) {
     }
 }
 
-// Whether the next ray is worth tracing.
+// True if the next ray is worth tracing.
 bool goes_on(Path path) {
     float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
     return SHOW == SHOW_PICTURE && path.bounce <= push.depth && contribution > 0.0
@@ -31,7 +31,7 @@ bool goes_on(Path path) {
 }
 // ANCHOR_END: path
 
-// What a view shows of a hit instead of the picture.
+// The quantity a view shows of a hit, instead of the picture.
 vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     bool plain = missed || hit.instance == PLANE;
@@ -43,12 +43,12 @@ vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     }
 }
 
-// Whether that is the plane from inside, in a colour of its own that asks for no light.
+// True for the plane from inside, which has a colour of its own and needs no light.
 bool shines(Hit hit) {
     return INSIDE == INSIDE_COLOR && hit.instance == PLANE && hit.material == SIDE_INSIDE;
 }
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights a hit, adds its light to the path, and sets up the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
     vec3 color = hit.color;
@@ -68,7 +68,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         if (reflection != vec3(0.0)) {
             mirror = fresnel(reflection, max(dot(hit.normal, -ray.direction), 0.0));
         }
-        // What is reflected does not reach the colour below.
+        // Reflected light does not reach the colour below.
         hit.color *= 1.0 - mirror;
         color = material.emission + hit.color * ambient(hit.normal);
         visible = 0.0;

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -10,8 +10,8 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Reflections { vec3 at[]; };
 
-// What is in the world beside the scene. It would not fit into push constants: 128 bytes are all that
-// every device has.
+// The world beside the scene. It does not fit into push constants, for which every device has
+// 128 bytes.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
     Reflections reflections;   // of each material, looked at straight
     Plane plane;

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -6,7 +6,7 @@
 #include "common/false_color.glsl"
 #include "common/show.glsl"
 
-// How a material looks.
+// The finish of a material.
 struct Finish {
     vec3 first;
     float scale;      // cells of the lattice a unit

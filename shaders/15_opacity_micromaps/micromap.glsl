@@ -1,4 +1,4 @@
-// What is known of a triangle's opacity before any texture is read.
+// Lookup of a triangle's opacity before any texture is read.
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer States { uint at[]; };
 
@@ -16,11 +16,11 @@ const uint STATE_OPAQUE = 1;
 const uint STATE_UNKNOWN_TRANSPARENT = 2;
 const uint STATE_UNKNOWN_OPAQUE = 3;
 
-// How far outside of a triangle a hit may lie and still be looked up; the bound on each state reaches so far.
+// The distance outside a triangle at which a hit may still be looked up. The bound on each state covers it.
 const float SLACK = 1.0 / 16384.0;
 
-// Which micro-triangle a point lies in. `w` are the weights of the three corners. Each turn finds the part that
-// holds the point, and the point's weights within it; whatever they are, the number is below 4^level.
+// The micro-triangle of a point whose weights of the three corners are `w`. Each step finds the part that
+// holds the point, and the point's weights within it. For any weights the result is below 4^level.
 uint micro_triangle(vec3 w, int level) {
     uint index = 0;
     for (int i = 0; i < level; i++) {

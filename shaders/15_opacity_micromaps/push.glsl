@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
     Micromaps micromaps; // one for each instance
 } push;
 
-// Whether the any-hit shader reads states before it reads a texture.
+// True if the any-hit shader reads states before it reads a texture.
 layout(constant_id = 1) const bool KNOWN = false;
 
 struct Payload {

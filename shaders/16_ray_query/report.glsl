@@ -1,5 +1,5 @@
-// What a query reports of the surface that its ray has met: all that 05's closest hit shader reads from
-// built-in variables is a question here.
+// The report of a ray query on the surface it hit. It calls functions for everything that 05's closest hit
+// shader reads from built-in variables.
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "common/ray_offset.glsl"

@@ -1,4 +1,4 @@
-// How much of the sky a surface sees: ambient light comes from there, and what stands in its way is dark.
+// The part of the sky that a surface sees. Ambient light comes from there, so whatever is in its way darkens it.
 #include "common/disk.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"

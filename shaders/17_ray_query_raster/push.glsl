@@ -1,4 +1,4 @@
-// What the compute shader of this chapter gets: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's compute shader.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push {
     Band band;
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
+// The specialization constants: the compiler drops code that they rule out.
 layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_TRIANGLE = 1;

@@ -1,11 +1,11 @@
-// What is to be known of the surface that a pixel sees, whether a rasteriser or a ray has found it.
+// The report on the surface that a pixel sees, found by the rasteriser or by a ray.
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "common/ray_offset.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-// What was found: four numbers of 32 bits, the texel of the G-buffer.
+// The texel of the G-buffer: four numbers of 32 bits.
 struct Seen {
     uint instance;        // NOTHING for the sky
     uint triangle;        // of the model

@@ -39,7 +39,7 @@ Seen by_raster(uvec2 pixel) {
     return Seen(texel.x, texel.y, uintBitsToFloat(texel.zw));
 }
 
-// What a ray sees, asked as in 16.
+// Finds the surface by a ray query, as in 16.
 Seen by_ray(vec3 origin, vec3 direction) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, 0xff, origin, 0.0, direction, 1e30);
@@ -54,7 +54,7 @@ Seen by_ray(vec3 origin, vec3 direction) {
 }
 // ANCHOR_END: primary
 
-// What a view shows of a hit instead of the picture.
+// The quantity a view shows of a hit, instead of the picture.
 vec4 view_of(Hit hit, Seen seen, vec3 direction, float visible, float open) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {

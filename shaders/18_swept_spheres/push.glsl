@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -18,7 +18,7 @@ layout(push_constant, scalar) uniform Push {
     DirectionalLight light;
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
+// The specialization constants: the compiler drops code that they rule out.
 layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_NORMAL = 1;
@@ -27,7 +27,7 @@ const uint SHOW_HIT = 3;
 const uint SHOW_DIRECTION = 4;
 const uint SHOW_ALONG = 5;
 
-// Whether to shade by a normal that is perpendicular to the axis, and not to the surface.
+// True to shade by a normal that is perpendicular to the axis, and not to the surface.
 layout(constant_id = 1) const uint NORMAL = 0;
 const uint NORMAL_SURFACE = 0;
 const uint NORMAL_AXIS = 1;

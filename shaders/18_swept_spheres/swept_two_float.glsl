@@ -65,7 +65,7 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmi
     vec2 k = ff_sub(uu, ff_mul(delta, delta));
     vec2 n = ff_dot(dir, u);
 
-    // Which ball is the nearest is a float: what follows is right for any, and loses least for this one.
+    // The nearest ball is chosen in floats: any choice is right, and this one loses the fewest digits.
     TwoFloat3 cross_du = ff_cross(dir, u);
     vec2 bend = ff_sub(ff_dot(cross_du, cross_du), ff_mul(ff_mul(delta, delta), dd));
     vec2 start_a = ff_add(ff_dot(at_a.p, u), ff_mul(delta, r));

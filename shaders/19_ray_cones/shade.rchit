@@ -14,7 +14,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 layout(location = 0) rayPayloadInEXT Seen seen;
 hitAttributeEXT vec2 barycentrics;
 
-// What is read of a texture of this size.
+// The row to read from a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     if (FOOTPRINT == FOOTPRINT_POINT) {
         return Row(vec2(0.0), 1, 0.0);
@@ -62,7 +62,7 @@ void main() {
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
 
-    // What has no texture has no level.
+    // Without a texture there is no level.
     hit.color = SHOW == SHOW_LEVEL ? vec3(0.2) : material.base_color;
     if (material.base_texture >= 0) {
         int index = material.base_texture;

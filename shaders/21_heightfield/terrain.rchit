@@ -15,7 +15,7 @@ vec3 color(float height, vec3 face) {
 
 // The hit again, from the formula and not from the ray: its height is what a march computes there.
 //
-// How far above the ground must a leaving ray start, so that a march finds the start above it? A
+// Sets the height above the ground at which a leaving ray starts, so that a march finds the start above it. A
 // march computes a height in the box that is off by `error` at most. That is the sum of two parts: the
 // roundings of the formula, which move the hit, and three roundings of a place. One of the three is that of
 // the start. A step h along the normal leads h·sqrt(1 + slope²) up from the slope, from which the

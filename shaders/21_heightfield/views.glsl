@@ -1,4 +1,4 @@
-// What a march costs and how far it is off, instead of a picture.
+// The cost of a march, and its error, in place of the picture.
 #include "common/heat.glsl"
 
 const float FAR = 1e30;

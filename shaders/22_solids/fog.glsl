@@ -2,7 +2,7 @@
 //
 // For shaders that have included solid.glsl.
 
-// What part of the way from 0 to `end` lies in a solid, and within its clip.
+// The length of the way from 0 to `end` that lies in a solid and within its clip.
 float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
     Interval clip = in_clip(solid, o, d);
     float t = max(clip.enter, 0.0);
@@ -17,7 +17,7 @@ float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
     return way;
 }
 
-// How far a ray goes outside of all solids, up to where it ends.
+// The length of a ray outside all solids, up to its end.
 //
 // Closed solids need no look: a ray that comes to one ends there, and a camera within one has another
 // pipeline. But a clip has no surface, and rays go in and out.
@@ -36,7 +36,7 @@ float way_outside(vec3 o, vec3 d, float end) {
     return max(end - within, 0.0);
 }
 
-// What part of the light is left after a way through fog.
+// The part of the light that is left after a way through fog.
 float clear_after(float way) {
     return FOG == FOG_NONE ? 1.0 : exp(-way / push.fog.distance);
 }

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -85,7 +85,7 @@ const uint SHOW_KIND = 7;
 const uint SHOW_SECTION = 8;
 const uint SHOW_FOG = 9;
 
-// Which way half-spaces are met.
+// The method for half-spaces.
 layout(constant_id = 1) const uint RUNG = 2;
 const uint RUNG_POV = 0;
 const uint RUNG_POINT = 1;

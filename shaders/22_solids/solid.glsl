@@ -12,7 +12,7 @@ vec3 in_space_of(SolidRecord solid, vec4 v) {
     return vec3(dot(solid.to_object[0], v), dot(solid.to_object[1], v), dot(solid.to_object[2], v));
 }
 
-// How far below a plane a point is, times |N|, and how fast a ray rises to it.
+// The depth of a point below a plane, times |N|, and the speed at which a ray rises to it.
 float height_below(Plane plane, vec3 o) {
     switch (RUNG) {
         case RUNG_POV: {
@@ -34,8 +34,8 @@ float slope_to(Plane plane, vec3 d) {
     return RUNG == RUNG_COMPENSATED ? dot_compensated(vec2(0.0), d, plane.normal) : slope;
 }
 
-// Whether a point is on the inner side. One on the plane itself is taken for a hair above it, as the
-// stored normal points: of two solids that touch there, it is in one.
+// True if a point is on the inner side. A point on the plane itself counts as just above it, along the
+// stored normal: of two solids that touch there, exactly one holds it.
 bool is_inner(Plane plane, float side, vec3 o) {
     return side > 0.0 ? height_below(plane, o) > 0.0 : height_below(plane, o) <= 0.0;
 }
@@ -91,8 +91,8 @@ Interval in_part(Part part, vec3 o, vec3 d) {
 }
 // ANCHOR_END: interval
 
-// Whether the solid holds a point that lies in these of its parts: bit i is part i. The program is in
-// postfix order, its stack are the bits of a number.
+// True if the solid holds a point that lies in these of its parts: bit i is part i. The program is in
+// postfix order, and the bits of a number are its stack.
 bool holds(SolidRecord solid, uint members) {
     uint stack = 0;
     for (uint i = solid.first_step; i < solid.first_step + solid.step_count; i++) {
@@ -112,7 +112,7 @@ bool holds(SolidRecord solid, uint members) {
     return (stack & 1) != 0;
 }
 
-// Whether a convex part holds a point: every one of its faces does.
+// True if a convex part holds a point: it is below every face.
 bool part_holds(Part part, vec3 point) {
     bool within = true;
     for (uint i = part.first_face; i < part.first_face + part.face_count && within; i++) {
@@ -127,7 +127,7 @@ bool part_holds(Part part, vec3 point) {
     return within;
 }
 
-// Whether a solid holds a point: the same program, asked about a point.
+// True if a solid holds a point, by the same program.
 bool contains(SolidRecord solid, vec3 point) {
     // Apart from the loop below: where one loop took the clip or a part, Mesa 26.2.6 crashed.
     if (solid.clip != NO_CLIP && !part_holds(push.solids.parts.at[solid.clip], point)) {

@@ -1,4 +1,4 @@
-// What is under way while the shutter is open, and where it is at a time.
+// The moving instances, and their place at a time while the shutter is open.
 
 struct Mover {
     vec4 open_rotation;     // unit quaternions: axis times sine, and cosine, of half the angle

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -6,7 +6,7 @@
 #include "mover.glsl"
 #include "common/show.glsl"
 
-// How often the intersection shader was called.
+// The number of calls of the intersection shader.
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Calls { uint count; };
 
 layout(push_constant, scalar) uniform Push {
@@ -36,7 +36,7 @@ layout(constant_id = 4) const uint COUNTING = 0;
 const uint COUNTING_OFF = 0;
 const uint COUNTING_ON = 1;
 
-// What marks the custom index of what is under way.
+// The bit of the custom index that marks a moving instance.
 const uint UNDER_WAY = 0x800000;
 // The hit kind of a triangle that the intersection shader has moved.
 const uint HIT_MOVED = 1;

@@ -47,7 +47,7 @@ Bounds swept(Mover mover, vec3 corners[3]) {
     }
     vec3 low = min(mover.open_place, mover.close_place);
     vec3 high = max(mover.open_place, mover.close_place);
-    // What is rounded here and when the triangle is moved is below 64 roundings of the largest number.
+    // The rounding here and when the triangle is moved is below 64 roundings of the largest number.
     size += max(dot(abs(low), vec3(1.0)), dot(abs(high), vec3(1.0)));
     vec3 room = vec3(sweep.margin + 64.0 * ROUNDING * size);
     return Bounds(low + arcs.low - room, high + arcs.high + room);

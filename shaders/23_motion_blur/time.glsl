@@ -2,7 +2,7 @@
 #include "common/random.glsl"
 #include "common/ray_time.glsl"
 
-// What else than in chapters before a number is for.
+// The purpose of a random number, beside those of earlier chapters.
 const uint DIMENSION_TIME = 2;
 
 // The time of a pixel's sample: 0 when the shutter opens, and less than 1.
@@ -16,7 +16,7 @@ float sample_time(uvec2 pixel, uint i) {
     }
 }
 
-// Which instances a ray of this time sees.
+// The mask of the instances that a ray of this time sees.
 uint mask_of(float time) {
     return METHOD == METHOD_MOMENTS ? 1u << uint(time * float(push.moments)) : 0xff;
 }

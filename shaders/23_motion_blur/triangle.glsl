@@ -11,7 +11,7 @@ vec3 ordered(vec3 v, vec3 size) {
     return size.x > size.y && size.x > size.z ? v.yzx : size.y > size.z ? v.zxy : v;
 }
 
-// Whether the line meets the triangle, and where. Seen along the ray, an edge has the origin on one side; the
+// Intersects a line with a triangle. Seen along the ray, an edge has the origin on one side; the
 // triangle on the other side of the edge computes the same number with the other sign, to the bit.
 bool crosses(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out Crossing crossing) {
     vec3 size = abs(direction);

@@ -1,4 +1,4 @@
-// What every question of the laboratory needs to be read and answered. After query.glsl.
+// The part that every query of the laboratory shares. After query.glsl.
 
 const Answer NO_HIT = Answer(0, 0, 0.0, vec3(0.0), vec3(0.0), 0);
 

@@ -20,7 +20,7 @@ float sample_of(Sequence sequence, uint i) {
     return other ? sequence.other : sequence.value;
 }
 
-// What a sum has come to, by whichever rung.
+// The state of a sum, by any rung.
 struct Sums {
     float sum;
     vec2 kahan;

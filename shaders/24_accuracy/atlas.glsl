@@ -1,4 +1,4 @@
-// What the atlas asks of a device's traversal, and what a ray has found.
+// The queries of the atlas on a device's traversal, and the result of a ray.
 
 struct Aim {
     vec3 origin;
@@ -19,7 +19,7 @@ struct Found {
     uint calls;     // of the any-hit shader; those beyond MOST are counted, and not noted
 };
 
-// How many calls are noted of a ray.
+// The number of calls recorded per ray.
 const uint MOST = 16;
 const uint NOTHING = 0xffffffffu;
 

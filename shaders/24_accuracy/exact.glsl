@@ -1,5 +1,5 @@
-// What error-free transformations need of the device's floats: round to nearest even, zeros with signs.
-// GLSL has no words for execution modes, so they are SPIR-V's (SPV_KHR_float_controls).
+// The execution modes that error-free transformations need: round to nearest even, zeros with signs.
+// GLSL has no words for them, so they are SPIR-V's (SPV_KHR_float_controls).
 #extension GL_EXT_spirv_intrinsics : require
 
 // The rungs that need this are compiled with it alone.

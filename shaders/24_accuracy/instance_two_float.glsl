@@ -12,7 +12,7 @@ struct TwoFloatRows {
 
 // The first hit with tmin < t <= tmax; L and T as they are, and L^-1 in two floats an entry.
 //
-// What decides whether the ray meets the sphere is the cross product of origin and direction in the
+// The ray meets the sphere or not by the length of the cross product of origin and direction in the
 // object's space. For any two vectors (L^-1 f) × (L^-1 d) is L^T (f × d) / det L: so the cancelling is
 // done in the world, where o, d and T are exact.
 bool instance_two_float(vec3 o, vec3 d, float tmin, float tmax, mat3 linear, vec3 translation,

@@ -1,4 +1,4 @@
-// What the laboratory asks, what it is told, and which way of answering is compiled in.
+// The queries of the laboratory, their results, and the method that is compiled in.
 
 struct Query {
     vec3 origin;
@@ -39,7 +39,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 #endif
 
-// What is asked of. The host defines PRIMITIVE; by itself, a shader of this folder is for spheres.
+// The primitive of the query. The host defines PRIMITIVE; by itself, a shader of this folder is for spheres.
 #define PRIMITIVE_SPHERE 0
 #define PRIMITIVE_BOX 1
 #define PRIMITIVE_PLANE 2
@@ -54,6 +54,6 @@ layout(push_constant, scalar) uniform Push {
 #endif
 
 layout(constant_id = 0) const uint RUNG = 0;
-// Whether fma() rounds once on this device: the host has probed it.
+// 1 if fma() rounds once on this device: the host has probed it.
 layout(constant_id = 1) const uint FMA_ROUNDS_ONCE = 0;
 #define FUSED FMA_ROUNDS_ONCE

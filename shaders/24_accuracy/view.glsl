@@ -70,7 +70,7 @@ void main() {
     Query query = Query(view.camera.origin, 0.0, ray_direction(view.camera, point, size), 1e30, 0, view.count, 0);
     Answer answer = ask(query, view.numbers);
 #if PRIMITIVE == PRIMITIVE_SECONDARY_ORIGIN
-    // What leaves the sphere must not meet it again.
+    // A ray that leaves the sphere must not hit it again.
     Answer seen = ask_sphere(SPHERE_STABLE, Query(query.origin, 0.0, query.direction, 1e30, 1, view.count, 0), view.numbers);
     bool lit = dot(seen.normal, view.sun) > 0.0;
     bool acne = seen.hit != 0 && lit && answer.hit != 0;

@@ -1,4 +1,4 @@
-// What is compiled. The program defines EFFECT_... for each effect in use, and SPECIALISED.
+// Selects the code to compile. The program defines EFFECT_... for each effect in use, and SPECIALISED.
 //
 // Alone, as tests and editors compile it, a shader has everything.
 
@@ -27,7 +27,7 @@
 #define EFFECT_MOTION_BLUR
 #endif
 
-// What several effects need.
+// Needed by several effects.
 #if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
 #define SHADOWS
 #endif
@@ -38,7 +38,7 @@
 #if defined(EFFECT_MIRROR) || defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
 #define PATHS
 #endif
-// What shines is found in two ways: by shadow rays, and by chance.
+// Emitters are found in two ways: by shadow rays, and by rays in random directions.
 #if defined(EFFECT_EMITTERS) && defined(EFFECT_BOUNCES)
 #define CHANCES
 #endif
@@ -66,7 +66,7 @@
 #if defined(CONES) && (defined(EFFECT_MIRROR) || defined(EFFECT_GLASS))
 #define CURVES
 #endif
-// What a material has beside what an MTL file can say.
+// The data of a material that an MTL file cannot hold.
 #if defined(EFFECT_PATTERNS) || defined(EFFECT_WIREFRAME)
 #define FINISHES
 #endif

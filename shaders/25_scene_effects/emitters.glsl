@@ -1,7 +1,7 @@
-// What shines: shadow rays ask for its light, and paths meet it by chance (chapter 29).
+// Emitters: shadow rays sample their light, and paths hit them at random (chapter 29).
 #include "common/aim.glsl"
 
-// Which emitter is asked; and at which point.
+// The purposes of random numbers: to choose an emitter, and a point of it.
 const uint DIMENSION_EMITTER = 6;
 const uint DIMENSION_POINT = 7;
 
@@ -27,16 +27,16 @@ float part_by_chance(Path path, Ray ray, Hit hit) {
 }
 #endif
 
-// Which emitter: by its power. Both numbers are multiples of 2^-24, and there are 2^k columns: so nothing here
-// is rounded.
+// The emitter chosen, in proportion to its power. Both numbers are multiples of 2^-24, and there are 2^k
+// columns, so nothing here is rounded.
 uint chosen(vec2 u) {
     uint column = uint(u.x * float(push.world.emitters.column_count));
     Column found = push.world.emitters.columns.at[column];
     return u.y < found.own ? column : found.other;
 }
 
-// What a surface scatters of an emitter's light, for which a shadow ray asks. `matte` is the probability that
-// the path scatters, too, and may meet the emitter by chance.
+// The light of an emitter that a surface scatters, sampled by a shadow ray. `matte` is the probability that
+// the path also scatters, and may hit the emitter at random.
 vec3 asked(Path path, Hit hit, float matte) {
     if (push.world.emitters.column_count == 0 || hit.color == vec3(0.0)) {
         return vec3(0.0);

@@ -1,4 +1,4 @@
-// What a material has beside what an MTL file can say: a pattern (chapter 13), and lines (chapter 20).
+// The finish of a material that an MTL file cannot hold: a pattern (chapter 13), and lines (chapter 20).
 
 // The finish of a material. Ground and plane have none, and in many scenes nothing has.
 Finish finish_of(uint material) {
@@ -20,7 +20,7 @@ bool is_of(uint pattern, uint kind) {
     return pattern == kind && (PATTERNS >> kind & 1) != 0;
 }
 
-// How much of the second colour there is at a place, 0 to 1.
+// The part of the second colour at a place, 0 to 1.
 float second_at(uint pattern, vec3 place) {
     if (is_of(pattern, PATTERN_MARBLE)) {
         return marble(place, 0);

@@ -2,7 +2,7 @@
 #include "common/mirror.glsl"
 #include "common/media.glsl"
 
-// Whether light enters what was met. No ray goes on at depth 0: there glass is opaque.
+// True if light enters the surface. No ray goes on at depth 0: there glass is opaque.
 bool is_glass(Hit hit) {
     return hit.t >= 0.0 && hit.material < push.world.glass_count && push.world.depth != 0
         && push.world.glasses.at[hit.material].kind != GLASS_NONE;
@@ -13,7 +13,7 @@ uvec4 media_of_camera() {
     return uvec4(first[0], first[1], first[2], first[3]);
 }
 
-// What a ray's way through a body leaves of the light.
+// The part of the light that is left after a ray's way through a body.
 vec3 left_on_way(uvec4 media, float way) {
     bool is_air = media.x == AIR || way < 0.0;
     return is_air ? vec3(1.0) : left_after(way * push.world.glasses.at[media.x].absorption);

@@ -1,5 +1,5 @@
-// What a hit shader reports of the surface that a ray met. What to do about it, the raygen shader
-// decides: this is the payload of its rays. It has what the effects in use have to tell, and no more.
+// The report of a hit shader on the surface a ray hit: the payload of the raygen shader's rays. The raygen
+// shader decides what follows. It has the fields of the effects in use, and no more.
 
 struct Hit {
     vec3 position;    // on the surface, in the world
@@ -33,5 +33,5 @@ struct Hit {
 const uint MATERIAL_GROUND = -2;
 const uint MATERIAL_PLANE = -1;
 
-// What no shadow ray asks for light.
+// The number of a surface whose light no shadow ray samples.
 const uint NO_EMITTER = -1;

@@ -1,4 +1,4 @@
-// What the lights of the world do to a surface that a ray has met.
+// The light of the world's lights that a surface sends to the eye.
 
 #ifdef SHADOW_RAYS
 #include "shadow.glsl"
@@ -20,7 +20,7 @@ RayOrigin shadow_start(Hit hit) {
     return start;
 }
 
-// Whether shadow rays go to a light.
+// True if shadow rays go to a light.
 bool casts_shadows(Light light, uint number) {
 #ifndef EFFECT_POINT_SHADOWS
     if (light.kind == LIGHT_POINT) {
@@ -35,7 +35,7 @@ bool casts_shadows(Light light, uint number) {
     return (push.world.shadows >> number & 1) != 0;
 }
 
-// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else rays go to
+// The part of a light that reaches a surface, 0 to 1. One ray tells if the light has no size; else rays go to
 // points of it, which begin at the random numbers `first`.
 float visibility(DiskLight disk, RayOrigin start, Hit hit, vec2 first) {
 #ifdef EFFECT_AREA_LIGHT
@@ -51,8 +51,8 @@ float visibility(DiskLight disk, RayOrigin start, Hit hit, vec2 first) {
     for (uint i = 0; i < count; i++) {
         vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
         vec3 to_light = towards_disk(disk, start.origin, point);
-        // What is below the surface, the surface itself hides; that needs no ray. On a round surface, up is
-        // where the smooth normal points.
+        // A light below the surface is hidden by the surface itself and needs no ray. On a round surface, up is
+        // the direction of the smooth normal.
         vec3 up = start.is_offset ? hit.normal : hit.face;
         if (dot(up, to_light) > 0.0
             && is_lit(start.origin, to_light, light_end(disk.light), on_plane)) {

@@ -1,8 +1,8 @@
 // Lines along the edges of a triangle, as wide in pixels as asked for: as chapter 20 has them, for every ray
 // that has a cone.
 
-// How much of a pixel the lines of a triangle cover, 0 to 1. `cone` is how wide the ray's cone is where it
-// begins, and by how much it widens.
+// The part of a pixel that the lines of a triangle cover, 0 to 1. `cone` is the width of the ray's cone at its
+// origin, and by how much it widens.
 float line_coverage(vec3 corners[3], vec3 origin, vec3 direction, vec2 cone, float width) {
     // Many curved mirrors widen a cone beyond what floats can say.
     cone = min(cone, vec2(1e15));
@@ -19,7 +19,7 @@ float line_coverage(vec3 corners[3], vec3 origin, vec3 direction, vec2 cone, flo
         n /= max(max(size.x, max(size.y, size.z)), 1e-37);
         nearest = min(nearest, abs(dot(n, direction)) / (cone.y * length(n)));
     }
-    // What the pixel, one wide, and the line have in common.
+    // The overlap of the line and the pixel, which is 1 wide.
     float half_width = 0.5 * width;
     return clamp(min(nearest + 0.5, half_width) - max(nearest - 0.5, -half_width), 0.0, 1.0);
 }

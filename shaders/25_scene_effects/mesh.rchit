@@ -42,7 +42,7 @@ float curvature(InstanceRecord instance, uint triangle) {
 #endif
 
 #ifdef EFFECT_FILTERED_TEXTURES
-// What the ray's cone reads of a texture (chapter 19).
+// The row of a texture for the ray's cone (chapter 19).
 Row row_on(InstanceRecord instance, uint triangle, vec3 face, int index) {
     if (push.world.filtered == 0) {
         return Row(vec2(0.0), 1, 0.0);

@@ -33,7 +33,7 @@ struct Path {
 // The camera, a mirror and glass leave no choice.
 const float NO_OTHER = -1.0;
 
-// Whether the next ray is worth tracing.
+// True if the next ray is worth tracing.
 bool goes_on(Path path) {
 #ifdef PATHS
     float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
@@ -61,7 +61,7 @@ vec2 numbers(Path path, uint dimension) {
 #include "emitters.glsl"
 #endif
 
-// What was met is made of, its colour apart; and what that mirrors, looked at straight.
+// The material of a hit, without its colour; and its reflectance seen straight on.
 MaterialRecord material_of(Hit hit, out vec3 reflection) {
     MaterialRecord material;
     material.specular = vec3(0.0);
@@ -102,7 +102,7 @@ const uint WAY_MIRROR = 0;
 const uint WAY_BOUNCE = 1;
 const uint WAY_GLASS = 2;
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights a hit, adds its light to the path, and sets up the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
 #if defined(PATHS) && defined(CONES)
     ray.width += ray.spread * hit.t;
@@ -116,8 +116,8 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         hit.color = vec3(0.0);   // below its surface nothing scatters
     }
 #endif
-    // How this ray's light reaches the eye. The next ray's throughput is known before any light is asked for:
-    // so less has to be kept meanwhile.
+    // The part of this ray's light that reaches the eye. The next ray's throughput is computed before any light
+    // is sampled, so that fewer values stay alive.
     vec3 reaching = path.throughput;
     if (hit.t < 0.0) {
         path.color += reaching * hit.color;
@@ -130,7 +130,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         if (reflection != vec3(0.0) && push.world.depth != 0) {
             mirror = fresnel(reflection, max(dot(hit.normal, -ray.direction), 0.0));
         }
-        // What is reflected does not reach the colour below.
+        // Reflected light does not reach the colour below.
         hit.color *= 1.0 - mirror;
 #endif
         vec3 around = push.world.sky * ambient(hit.normal);

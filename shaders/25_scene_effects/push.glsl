@@ -1,5 +1,5 @@
-// What the shaders of this chapter share: the push constants, the world behind them, and what the
-// pipeline is made for.
+// The push constants of this chapter's shaders, the world behind their addresses, and the
+// specialization constants.
 #include "effects.glsl"
 #include "common/camera.glsl"
 #include "common/scene.glsl"
@@ -61,7 +61,7 @@ struct Face {
     float distance;  // from the solid's center
 };
 
-// What lies on the plane.
+// The surface of the plane.
 struct Board {
     vec3 light;
     vec3 dark;
@@ -72,7 +72,7 @@ struct Board {
     vec2 anchor;     // on which square the plane's anchor lies
 };
 
-// What a material has beside what an MTL file can say.
+// The data of a material that an MTL file cannot hold.
 struct Finish {
     vec3 second;     // the colour where the pattern is 1; where it is 0, the material's own is seen
     float scale;     // cells of the pattern's lattice a unit
@@ -140,14 +140,14 @@ layout(push_constant, scalar) uniform Push {
     World world;
 } push;
 
-// Which kinds of light there are, one bit a kind; how many lights at most; which kinds of geometry rays
-// look at; which patterns there are, one bit each. The compiler drops what such a constant rules out.
+// The kinds of light, one bit per kind; the largest number of lights; the kinds of geometry that rays
+// test; the patterns, one bit each. The compiler drops the code that such a constant rules out.
 layout(constant_id = 0) const uint LIGHT_KINDS = 3;
 layout(constant_id = 1) const uint LIGHTS = 4;
 layout(constant_id = 2) const uint RAY_MASK = 0xff;
 layout(constant_id = 3) const uint PATTERNS = 14;
 
-// What every ray is told: without cut-outs, no any-hit shader is to be looked for.
+// The flags of every ray: without cut-outs, the device need not look for an any-hit shader.
 #ifdef EFFECT_CUT_OUT
 const uint RAY_FLAGS = gl_RayFlagsNoneEXT;
 #else

@@ -1,4 +1,4 @@
-// What the hit shaders of shapes report: spheres, boxes and solids, placed as they are.
+// The report of the hit shaders of shapes: spheres, boxes and solids, which have no transform.
 
 #ifdef EFFECT_PATTERNS
 #include "finish.glsl"

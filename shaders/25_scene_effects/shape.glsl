@@ -1,4 +1,4 @@
-// What the shaders of shapes agree on.
+// The declarations that the shaders of shapes share.
 
 // Hit kinds of intersection shaders go from 0 to 127.
 const uint KIND_SPHERE = 0;

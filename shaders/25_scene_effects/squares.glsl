@@ -2,7 +2,7 @@
 #include "common/checker.glsl"
 #include "ray.glsl"
 
-// How wide the cone of a pixel's rays is on a surface, along two of its axes, at distance t.
+// The width of the cone of a pixel's rays on a surface, along two of its axes, at distance t.
 vec2 footprint(Ray ray, float t, vec3 normal, vec3 u, vec3 v) {
     vec3 direction = ray.direction;
     float width = ray.width + ray.spread * t;

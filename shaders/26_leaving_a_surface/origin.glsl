@@ -88,7 +88,7 @@ RayOrigin start_reprojected(Departure from) {
 }
 // ANCHOR_END: integers
 
-// How high above the plane of a triangle, in units of ROUNDING, a ray must start, so that no
+// The height above the plane of a triangle, in units of ROUNDING, at which a ray must start so that no
 // rounding in the triangle test puts it below the plane. It holds for the tests of Woop, Benthin and Wald
 // (JCGT 2:1, 2013) and of Moeller and Trumbore (JGT 2:1, 1997). All is in the mesh's space; the page
 // derives it.

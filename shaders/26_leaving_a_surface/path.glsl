@@ -17,7 +17,7 @@ void gather(inout Path path, vec4 seen) {
     }
 }
 
-// Whether the next ray is worth tracing.
+// True if the next ray is worth tracing.
 bool goes_on(Path path) {
     float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
     return path.bounce <= push.depth && contribution > 0.0
@@ -25,7 +25,7 @@ bool goes_on(Path path) {
 }
 // ANCHOR_END: path
 
-// What a view shows of a hit instead of the picture.
+// The quantity a view shows of a hit, instead of the picture.
 vec4 view_of(Hit hit, Ray ray, RayOrigin start, float visible) {
     switch (SHOW) {
         case SHOW_RAY_ORIGIN: return vec4(ray.start.origin, ray.start.tmin);
@@ -33,7 +33,7 @@ vec4 view_of(Hit hit, Ray ray, RayOrigin start, float visible) {
     }
 }
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights a hit, adds its light to the path, and sets up the next ray.
 void advance(inout Path path, inout Ray ray, TriangleHit seen) {
     Hit hit = seen.hit;
     vec3 color = hit.color;
@@ -51,7 +51,7 @@ void advance(inout Path path, inout Ray ray, TriangleHit seen) {
         if (material.illumination >= ILLUMINATION_MIRROR) {
             mirror = fresnel(material.specular, max(dot(hit.normal, -ray.direction), 0.0));
         }
-        // What is reflected does not reach the colour below.
+        // Reflected light does not reach the colour below.
         hit.color *= 1.0 - mirror;
         color = material.emission + hit.color * ambient(hit.normal)
             + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -ray.direction);

@@ -1,8 +1,8 @@
 // The lamp: a disk that faces whoever looks at it (35) and shines evenly. A shadow ray and a ray that happens
 // to meet it count the same light.
 
-// What reaches a surface at distance 1 from a small disk is its strength: so its radiance is the strength over
-// its area.
+// The light of a small disk that reaches a surface at distance 1 is its strength, so its radiance is the
+// strength over its area.
 vec3 radiance_of(DiskLight lamp) {
     return lamp.light.strength / (3.14159265 * lamp.radius * lamp.radius);
 }

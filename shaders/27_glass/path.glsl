@@ -29,7 +29,7 @@ void gather(inout Path path, vec3 seen) {
     path.color += light;
 }
 
-// Whether the next ray is worth tracing. Clear glass takes nothing, and ends no path by chance: the depth does.
+// True if the next ray is worth tracing. Clear glass takes nothing, so no path through it ends at random.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
     if (path.bounce > push.depth || contribution <= 0.0) {

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -8,7 +8,7 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Glasses { Glass at[]; };
 
-// What stays as it is while samples are added up.
+// The values that stay the same while samples are added up.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
     SceneAddresses scene;
     Glasses glasses;      // one for each material
@@ -26,7 +26,7 @@ layout(push_constant, scalar) uniform Push {
     uint sample_index;    // which of a pixel's samples
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
+// The specialization constants: the compiler drops code that they rule out.
 layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_ORIGIN = 1;

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -32,7 +32,7 @@ const uint SHOW_HIT = 3;
 const uint SHOW_ORIGIN = 4;
 const uint SHOW_DIRECTION = 5;
 
-// How a ray's direction to its point in focus is computed.
+// The method that computes a ray's direction to its point in focus.
 layout(constant_id = 1) const uint RUNG = 2;
 const uint RUNG_WORLD = 0;
 const uint RUNG_EYE = 1;

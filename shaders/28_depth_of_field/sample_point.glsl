@@ -1,7 +1,7 @@
-// What makes the points of a sequence differ from pixel to pixel, and from purpose to purpose.
+// Makes the points of a sequence differ from pixel to pixel, and from purpose to purpose.
 #include "common/sequence.glsl"
 
-// What else than in chapters before a number is for.
+// The purpose of a random number, beside those of earlier chapters.
 const uint DIMENSION_LENS = 5;
 
 // Where the ray of a frame goes through its pixel, or through the lens, in [0, 1)^2.

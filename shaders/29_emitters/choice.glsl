@@ -1,4 +1,4 @@
-// Which emitter a shadow ray asks.
+// The choice of the emitter that a shadow ray samples.
 
 // ANCHOR: choice
 struct Choice {
@@ -6,7 +6,7 @@ struct Choice {
     float probability;
 };
 
-// How many emitters are asked at a hit.
+// The number of emitters sampled at a hit.
 uint choices() {
     return CHOICE == CHOICE_ALL ? push.emitters.count : min(push.emitters.count, 1);
 }

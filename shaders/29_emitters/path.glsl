@@ -32,7 +32,7 @@ void gather(inout Path path, vec3 seen) {
     path.color += light;
 }
 
-// Whether the next ray is worth tracing. A path that has lost nothing is not ended by chance.
+// True if the next ray is worth tracing. A path that has lost no light does not end at random.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
     if (path.bounce > push.depth || contribution <= 0.0) {
@@ -69,8 +69,8 @@ float part_by_chance(Path path, Ray ray, Hit hit) {
     return chance / max(chance + probability_of(index), 1e-30);
 }
 
-// What a surface scatters of the light that shadow rays ask for. `matte` is the probability that the path
-// scatters, too, and does not mirror.
+// Adds the light that a surface scatters of sampled emitters. `matte` is the probability that the path
+// scatters, and does not mirror.
 void ask(inout Path path, Hit hit, MaterialRecord material, vec3 from, float to_eye, float matte) {
     for (uint i = 0; i < choices(); i++) {
         Choice chosen = choice(i, numbers(path, DIMENSION_EMITTER));
@@ -92,7 +92,7 @@ void ask(inout Path path, Hit hit, MaterialRecord material, vec3 from, float to_
     }
 }
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights a hit, adds its light to the path, and sets up the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     if (hit.t < 0.0) {
         gather(path, hit.color);

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -25,7 +25,7 @@ layout(push_constant, scalar) uniform Push {
     uint sample_index;    // which of a pixel's samples
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
+// The specialization constants: the compiler drops code that they rule out.
 layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_RAYS = 1;

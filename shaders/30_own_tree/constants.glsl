@@ -1,4 +1,4 @@
-// What a walk is made for, fixed when the pipeline is made.
+// The specialization constants of a walk.
 #ifndef FUSED
 #define FUSED 0
 #endif
@@ -15,7 +15,7 @@ const uint TRIANGLES_MOELLER = 0;
 const uint TRIANGLES_WATERTIGHT = 1;
 const uint TRIANGLES_TWO_FLOAT = 2;
 
-// Whether nodes are read in 36 bytes.
+// True if nodes are read in 36 bytes.
 layout(constant_id = 6) const bool QUANTISED = false;
 
 // As many entries as the deepest way through both trees: no walk needs more.

@@ -6,7 +6,7 @@
 #include "extent.glsl"
 #include "index.glsl"
 
-// Which node lies above which: from sorted keys, all nodes at once (Karras, "Maximizing Parallelism in the
+// The parent of every node, from sorted keys, for all nodes at once (Karras, "Maximizing Parallelism in the
 // Construction of BVHs, Octrees, and k-d Trees", High Performance Graphics 2012, section 4).
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Keys { uint at[]; };
@@ -23,8 +23,8 @@ layout(push_constant, scalar) uniform Hierarchy {
 
 const uint NO_NODE = 0xffffffff;
 
-// How many leading bits the keys at two positions share; less than any if there is no such position. Where keys are
-// the same the positions are compared, so that no two are the same.
+// The number of leading bits that the keys at two positions share; less than any if there is no such position. Equal
+// keys are compared by their positions, so that no two are the same.
 int shared_prefix(uint key, int i, int j, int count) {
     if (j < 0 || j >= count) {
         return -1;

@@ -37,7 +37,7 @@ uint morton(vec3 centre, Extent all) {
     vec3 sides = 0.5 * all.high - 0.5 * all.low;
     float side = max(max(sides.x, sides.y), sides.z);
     vec3 part = (0.5 * centre - 0.5 * all.low) / (side > 0.0 ? side : 1.0);
-    // What lies on the far side belongs to the last of 1024 cells.
+    // A point on the far side belongs to the last of 1024 cells.
     uvec3 cell = min(uvec3(1024.0 * part), uvec3(1023));
     return min(spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z), NOT_FINITE - 1);
 }

@@ -1,4 +1,4 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
@@ -13,7 +13,7 @@ struct Band {
     uvec2 size;
 };
 
-// What a view shows.
+// The values that a view needs.
 struct View {
     vec2 pixel;           // whose ray is walked, as parts of the picture's sides
     uint step;            // after how many nodes

@@ -1,4 +1,4 @@
-// What the walk reports of the surface that its ray has met: what 16 asks a ray query for is read here.
+// The report of the walk on the surface its ray hit. 16 gets the same values from a ray query.
 #include "common/hit.glsl"
 #include "common/ray_offset.glsl"
 

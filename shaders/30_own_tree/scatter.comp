@@ -6,7 +6,7 @@
 
 // The third part: each key goes behind all of a lower digit, and behind those of its own that come before it.
 
-// How many rows of keys are sorted at a time: more wait less for each other, and take more memory.
+// The number of rows of keys sorted at a time: more of them wait less for each other, and take more memory.
 const uint ROWS = 2;
 shared uint next[DIGITS];         // where the next key of each digit goes
 shared uint who[DIGITS][ROWS];    // which invocations have a key of each digit in each row, a bit for each

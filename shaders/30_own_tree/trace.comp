@@ -18,7 +18,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     return walk(push.trees.at[0], origin, to_light, end, true).placed == NOTHING;
 }
 
-// What a ray meets.
+// Traces a ray, and reports its hit.
 Hit trace(vec3 origin, vec3 direction, out Met met) {
     met = walk(push.trees.at[0], origin, direction, 1e30, false);
     Hit hit;
@@ -31,7 +31,7 @@ Hit trace(vec3 origin, vec3 direction, out Met met) {
     return hit;
 }
 
-// What a view shows of a hit instead of the picture.
+// The quantity a view shows of a hit, instead of the picture.
 vec4 view_of(Hit hit, Met met, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {

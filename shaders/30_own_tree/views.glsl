@@ -1,9 +1,9 @@
-// What there is to see of a walk: the edges of boxes, over the picture.
+// The views of a walk: the edges of boxes, over the picture.
 #include "common/heat.glsl"
 
 const float EDGE = 0.0035;    // half a line's width, at a distance of 1
 
-// Whether a point of a box's surface lies on an edge: then two of its three coordinates are those of walls.
+// True if a point of a box's surface lies on an edge: then two of its three coordinates are those of walls.
 bool is_on_edge(vec3 point, vec3 low, vec3 high, float width) {
     vec3 inset = min(point - low, high - point);
     vec3 close = vec3(lessThan(inset, vec3(width)));
@@ -30,8 +30,8 @@ bool draws_edge(vec3 o, vec3 d, Child child, inout float t) {
     return false;
 }
 
-// How many nodes lead to a triangle in the tree of its mesh. A walk for a point: of all boxes, those are looked into
-// that hold the triangle's first corner.
+// The number of nodes above a triangle in the tree of its mesh. A walk for a point: it enters all boxes that
+// hold the triangle's first corner.
 uint depth_of(Trees trees, Met met) {
     vec3 point = trees.corners.at[met.position].a;
     uint nodes[STACK];

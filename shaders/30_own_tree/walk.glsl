@@ -3,11 +3,11 @@
 #include "box.glsl"
 #include "common/triangle.glsl"
 
-// What is left to be visited, in one number: as a Child has it, `first` and, above these bits, `count`.
+// The nodes still to be visited, in one number: as a Child has it, `first` and, above these bits, `count`.
 const uint FIRST_BITS = 28;
 const uint FIRST_MASK = (1 << FIRST_BITS) - 1;
 
-// What a ray has met: nothing, or a triangle of an instance.
+// The result of a ray: nothing, or a triangle of an instance.
 struct Met {
     float t;
     uint placed;          // which instance, by its position in the top tree; NOTHING for a miss

@@ -1,4 +1,4 @@
-// What makes the points of a sequence differ from pixel to pixel.
+// Makes the points of a sequence differ from pixel to pixel.
 #include "common/sequence.glsl"
 
 // Where in the pixel the ray of a frame goes through, in [0, 1)^2.

@@ -1,11 +1,11 @@
-// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+// The push constants and the specialization constants of this chapter's shaders.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
 #include "common/show.glsl"
 
-// What a piece has of its own, at its custom index.
+// The data of a piece, at its custom index.
 struct PieceRecord {
     mat3 inverse;         // of its matrix without the translation, made in 64 bits
     vec3 at;              // the translation

@@ -1,4 +1,4 @@
-// What a mirror and a lens make of a ray's cone, and of the next pixels' rays.
+// The effect of a mirror and of a lens on a ray's cone, and on the rays of the next pixels.
 //
 // `curvature` is 1 / radius: positive where the surface bulges towards the ray, negative where it is hollow, and 0
 // where it is flat. `before` and `after` are the cosines of the ray and of its refraction to the normal, positive.
@@ -22,8 +22,8 @@ Cone after_glass(Cone cone, float t, float curvature, float before, float after,
     return Cone(wider * width, (ratio * cone.spread - turned) / wider);
 }
 
-// How the rays of the next pixel to the right (a) and of the next one below (b) differ from the ray: where they
-// begin, and in their directions.
+// The differences between the ray and those of the next pixel to the right (a) and below (b), in their
+// origins and in their directions.
 struct Beam {
     Axes origin;
     Axes direction;

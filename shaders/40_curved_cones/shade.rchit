@@ -14,7 +14,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 layout(location = 0) rayPayloadInEXT Seen seen;
 hitAttributeEXT vec2 barycentrics;
 
-// What is read of a texture of this size.
+// The row to read from a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     if (FOOTPRINT == FOOTPRINT_POINT) {
         return Row(vec2(0.0), 1, 0.0);
@@ -83,7 +83,7 @@ void main() {
     float curvature = material.base_color == vec3(0.0) ? curvature_of(instance, triangle) : 0.0;
     seen.curvature = dot(hit.normal, normal) < 0.0 ? -curvature : curvature;
 
-    // What has no texture has no level.
+    // Without a texture there is no level.
     hit.color = SHOW == SHOW_LEVEL ? vec3(0.2) : material.base_color;
     if (material.base_texture >= 0) {
         int index = material.base_texture;

@@ -1,4 +1,4 @@
-// What lies on the plane: squares, or one colour.
+// The surface of the plane: squares, or one colour.
 #include "common/scene.glsl"
 #include "common/hit.glsl"
 #include "common/plane.glsl"
@@ -20,7 +20,7 @@ struct Board {
     vec2 anchor;         // on which square the plane's anchor lies
 };
 
-// How the squares are shown.
+// The method for the squares.
 layout(constant_id = 1) const uint CHECKER = 0;
 const uint CHECKER_FILTERED = 0;   // averaged over the pixel
 const uint CHECKER_POINT = 1;      // sampled at its centre
@@ -45,7 +45,7 @@ float shininess(float roughness) {
     return 2.0 / (width * width) - 2.0;
 }
 
-// What the board is made of, its colour apart.
+// The material of the board, without its colour.
 MaterialRecord board_material(Board board) {
     MaterialRecord material;
     material.specular = vec3(board.specular);

@@ -1,6 +1,6 @@
 // Taught by 02_basic.
 //
-// Which pixel an invocation of a raygen shader traces.
+// The pixel that an invocation of a raygen shader traces.
 
 // ANCHOR: band
 // A picture is traced in bands of rows. The record of the raygen shader in the shader binding table says

@@ -10,7 +10,7 @@ struct Crossing {
     vec3 face;       // outward normal of the wall
 };
 
-// Whether the ray crosses a before b: p / v < q / w is p·w < q·v, and that is a sum of products.
+// True if the ray crosses a before b: p / v < q / w is p·w < q·v, and that is a sum of products.
 bool before(Crossing a, Crossing b) {
     // Of the speeds, only their ratio matters; the products shall not underflow.
     int size = max(exponent_of(a.speed), exponent_of(b.speed));

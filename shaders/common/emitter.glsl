@@ -1,6 +1,6 @@
 // Taught by 29_emitters.
 //
-// What shines: spheres, and triangles of meshes; and the table by which one of them is chosen.
+// Emitters: spheres, and triangles of meshes; and the table by which one of them is chosen.
 
 struct Emitter {
     vec3 corner;          // a triangle's first; a sphere's centre

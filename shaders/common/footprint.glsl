@@ -1,6 +1,6 @@
 // Taught by 19_ray_cones.
 //
-// What a ray sees of a surface: a cone around the ray, and what it covers of a triangle and of the triangle's texture.
+// The footprint of a ray: a cone around it, and the part that it covers of a triangle and of the triangle's texture.
 
 // ANCHOR: cone
 struct Cone {
@@ -44,7 +44,7 @@ Axes differentials(float t, vec3 direction, vec3 face, vec3 right, vec3 down) {
                 t * (down - dot(down, face) / cosine * direction));
 }
 
-// How the texture coordinates change on a triangle: their gradients in the world.
+// The gradients of the texture coordinates on a triangle, in the world.
 struct Mapping {
     vec3 u;
     vec3 v;
@@ -61,7 +61,7 @@ Mapping mapping_of(vec3 e1, vec3 e2, vec2 s1, vec2 s2) {
     if (!(squared > 1e-24)) {
         return Mapping(vec3(0.0), vec3(0.0));   // no area: nothing to go along
     }
-    // How the two barycentric coordinates change.
+    // The gradients of the two barycentric coordinates.
     vec3 first = cross(b, normal) / (squared * size);
     vec3 second = cross(normal, a) / (squared * size);
     return Mapping(s1.x * first + s2.x * second, s1.y * first + s2.y * second);

@@ -1,8 +1,8 @@
 // Taught by 27_glass.
 //
-// What a smooth surface between two transparent media does with light.
+// Reflection and refraction at a smooth surface between two transparent media.
 
-// What a material is for light that enters it.
+// The optical properties of a material.
 struct Glass {
     vec3 absorption;  // exp(-absorption) of the light is left after a unit of length
     float index;      // of refraction
@@ -13,13 +13,13 @@ const uint GLASS_NONE = 0;
 const uint GLASS_THICK = 1;   // its surface is the skin of a body
 const uint GLASS_THIN = 2;    // its surface is a sheet, both of whose sides are the skin
 
-// What is left of light after a body has taken its part. Clear glass takes nothing at all: Vulkan lets exp(0)
+// The part of the light that a body lets through. Clear glass takes nothing at all: Vulkan lets exp(0)
 // be off by 3 ULP.
 vec3 left_after(vec3 absorption) {
     return mix(exp(-absorption), vec3(1.0), equal(absorption, vec3(0.0)));
 }
 
-// What part of the light a surface reflects, and what part goes through: x of the light that swings across
+// The parts of the light that a surface reflects and lets through: x of the light that swings across
 // the plane of ray and normal, y of that which swings within it.
 struct Split {
     vec2 reflected;

@@ -66,7 +66,7 @@ vec3 heightfield_normal(HeightfieldShape shape, vec2 p) {
     return normalize(vec3(-dx, 1.0, -dz));
 }
 
-// How high a ray is above the ground.
+// The height of a ray above the ground.
 float height_above(HeightfieldShape shape, vec3 o, vec3 d, float t) {
     precise vec3 p = o + t * d;
     precise float above = p.y - heightfield_height(shape, p.xz);

@@ -1,7 +1,7 @@
 // Taught by 05_shadow_miss.
 //
-// What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
-// The raygen shader decides what to do about it.
+// The report of a hit shader on the surface a ray hit: the payload of the raygen shader's rays.
+// The raygen shader decides what follows.
 
 struct Hit {
     vec3 position;    // on the surface, in the world

@@ -24,7 +24,7 @@ float light_end(Light light) {
 }
 // ANCHOR_END: towards
 
-// What arrives at a surface that faces the light: a point light's strength falls with the square of
+// The light that arrives at a surface facing the light: a point light's strength falls with the square of
 // the distance.
 vec3 arriving_light(Light light, vec3 from) {
     if (light.kind == LIGHT_DIRECTIONAL) {

@@ -1,9 +1,9 @@
 // Taught by 05_shadow_miss.
 //
-// How light lights a surface that a ray has met. A shadow ray finds out whether it arrives there. The
-// including shader defines how this ray is traced.
+// The light that a surface sends to the eye. A shadow ray finds out whether light arrives; the including
+// shader defines how this ray is traced.
 
-// Whether nothing lies between a point above a surface and the light.
+// True if nothing lies between a point above a surface and the light.
 bool is_lit(vec3 origin, vec3 to_light, float end);
 
 // ANCHOR: start
@@ -24,7 +24,7 @@ float visibility(RayOrigin start, vec3 to_light, float end) {
     return dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end) ? 1.0 : 0.0;
 }
 
-// What a surface sends to the eye, in direction `view`, of the light that arrives at it from a direction.
+// The light that a surface sends to the eye, in direction `view`, of the light that arrives from a direction.
 vec3 lit_by(vec3 arriving, vec3 to_light, Hit hit, MaterialRecord material, vec3 view) {
     return arriving * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view,
         normalize(to_light));

@@ -1,6 +1,6 @@
 // Taught by 19_ray_cones.
 //
-// What is read of a texture: which level, and where. After `textures`, an array of samplers.
+// Texture lookup: its level and place. After `textures`, an array of samplers.
 
 // As many lookups as one takes along a footprint.
 const float MOST = 16.0;
@@ -37,7 +37,7 @@ Row row_of(vec2 a, vec2 b, vec2 size) {
     float longer = is_a ? length_a : length_b;
     float shorter = is_a ? length_b : length_a;
     float count = 1.0;
-    // What is no number, or endless, is one lookup.
+    // A NaN or infinite length gets a single lookup.
     if (longer > 1.0 && longer < 1e9) {
         // Not max(), which may hand on what is no number.
         float wide = shorter > 1.0 ? shorter : 1.0;

@@ -1,11 +1,11 @@
 // Taught by 06_reflection.
 //
-// What a mirror reflects, and where to.
+// Reflection by a mirror: its direction and its strength.
 
 // From this number on, an MTL file's illumination model reflects (`illum 3`).
 const uint ILLUMINATION_MIRROR = 3;
 
-// What part of the light a polished surface reflects: `head_on` when looked at straight, and all of it
+// The part of the light that a polished surface reflects: `head_on` when seen straight, and all of it
 // at a grazing angle (Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994).
 vec3 fresnel(vec3 head_on, float cosine) {
     float grazing = 1.0 - cosine;

@@ -6,8 +6,8 @@
 // The same point from the triangle's corners is off by the rounding of the corners' coordinates alone.
 // (Waechter and Binder, Ray Tracing Gems, chapter 6; NVIDIA's self-intersection avoidance, 2023.)
 //
-// How far may it be from the plane that the next ray is tested against? Below u = 2^-24 is the error of
-// one rounding, relative; L, T the instance's matrix and translation, W the inverse; |x| takes every
+// The distance it may have from the plane that the next ray is tested against: below, u = 2^-24 is the error
+// of one rounding, relative; L, T the instance's matrix and translation, W the inverse; |x| takes every
 // entry's absolute value. Four things are rounded:
 //
 // 1. The point in the mesh's space, a + (w1·e1 + w2·e2): three roundings of the edges' part, one of

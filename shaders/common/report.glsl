@@ -1,6 +1,6 @@
 // Taught by 06_reflection.
 //
-// What a closest hit shader reports of the triangle that a ray met.
+// The report of a closest hit shader on the triangle that a ray hit.
 #include "common/hit_point.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];

@@ -1,6 +1,6 @@
 // Taught by 02_basic.
 //
-// What a ray finds out about the triangle that it hit: addresses lead from the instance to its mesh.
+// The data of the triangle a ray hit: addresses lead from the instance to its mesh.
 
 struct Vertex {
     vec3 position;

@@ -1,6 +1,6 @@
 // Taught by 02_basic.
 //
-// How a surface looks under a sky and a distant light. The same in every chapter.
+// The look of a surface under a sky and a distant light. The same in every chapter.
 
 struct DirectionalLight {
     vec3 direction;   // towards the light
@@ -16,7 +16,7 @@ vec3 sky(vec3 direction) {
     return mix(horizon, vec3(0.20, 0.245, 0.29), smoothstep(0.0, 0.45, -direction.y));
 }
 
-// What the sky sends to a surface from all sides: more from above than from below.
+// The light of the sky from all sides: more from above than from below.
 vec3 ambient(vec3 normal) {
     return mix(vec3(0.16, 0.14, 0.12), vec3(0.42, 0.47, 0.55), 0.5 + 0.5 * normal.y);
 }

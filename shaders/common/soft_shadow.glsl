@@ -1,6 +1,6 @@
 // Taught by 35_soft_shadows.
 //
-// What part of a disk that shines is seen from a surface.
+// The part of a shining disk that a surface sees.
 #include "common/lighting.glsl"
 #include "common/disk.glsl"
 

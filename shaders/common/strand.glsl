@@ -16,7 +16,7 @@ struct Segment {
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Nodes { Node at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Segments { Segment at[]; };
 
-// What the intersection shader tells the closest hit shader.
+// The hit attributes, from the intersection shader to the closest hit shader.
 struct Crossing {
     vec3 outward;   // unit normal
     float s;        // of which ball of the swept sphere: 0 at its first end, 1 at its last

@@ -6,7 +6,7 @@
 // No colour that can be added is as large: 2^31, as a float's exponent. Infinities and NaN are above it.
 const uint TOO_LARGE = 127 + 31;
 
-// Whether a colour is a number that can be added.
+// True if a colour can be added: it is finite.
 bool is_addable(float value) {
     return (floatBitsToUint(value) >> 23 & 0xffu) < TOO_LARGE;
 }

@@ -1,6 +1,6 @@
 // Taught by 11_path_tracing.
 //
-// What a surface does with light: a mirror on top, if it is polished, and below it a colour that scatters.
+// The light that a surface reflects: a mirror on top, if it is polished, and below it a colour that scatters.
 #include "common/mirror.glsl"
 
 float largest(vec3 v) {
@@ -24,7 +24,7 @@ vec3 scattered(MaterialRecord material, vec3 color, float to_eye, float to_light
 }
 // ANCHOR_END: polish
 
-// What a highlight keeps of the strength that 05 gives it, so that it never reflects more light than there is.
+// The part of its strength in 05 that a highlight keeps, so that it never reflects more light than arrives.
 float kept_of_highlight(float shininess) {
     return (shininess + 2.0) * (shininess + 4.0)
         / ((shininess + 8.0) * (shininess + exp2(-0.5 * shininess)));

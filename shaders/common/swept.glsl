@@ -105,7 +105,7 @@ Foot foot_of(vec3 f, vec3 d) {
     return Foot(again, both);
 }
 
-// How far the line runs within a ball, to either side of its foot; negative if it misses the ball.
+// Half the length of the line within a ball, to either side of its foot; negative if it misses the ball.
 float half_chord(Foot foot, vec3 d, float r) {
     precise float size = sqrt(dot(foot.p, foot.p));
     precise float square = (r - size) * (r + size);

@@ -52,7 +52,7 @@ TwoFloat3 permuted(TwoFloat3 v, uint axis) {
     return v;
 }
 
-// Whether the ray passes no two edges on different sides.
+// True if the ray passes no two edges on different sides.
 bool same_side(float u, float v, float w) {
     return !((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0));
 }

@@ -35,7 +35,7 @@ impl Capsule {
         let from_b = &Vector::from(ray.origin) - &Vector::from(self.b);
         let square = axis.length_squared();
         let (along, rate) = (from_a.dot(&axis), d.dot(&axis));
-        // How far along the axis, times its length: 0 at a, `square` at b.
+        // The position along the axis, times its length: 0 at a, `square` at b.
         let height = |t: &Surd| t.affine(&rate, &along);
 
         let mut found: Vec<Surd> = Vec::new();

@@ -41,7 +41,7 @@ pub fn cross(height: f64) -> (Mesh, Vec<DVec3>) {
     for side in [1.0, -1.0] {
         let front = |p: DVec2| p.extend(side * DEPTH);
         let edge = |p: DVec2| p.extend(side * (DEPTH - CHAMFER));
-        // What is counter-clockwise from the front is clockwise from the back.
+        // Counter-clockwise from the front is clockwise from the back.
         let mut add = |corners: &mut [DVec3]| {
             if side < 0.0 {
                 corners.reverse();

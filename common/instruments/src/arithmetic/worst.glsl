@@ -9,8 +9,8 @@
 // Choices are made by mix(), not by branches: drivers inline all of this, thousands of times, and take
 // long for many blocks.
 
-// Whether the entry point declares RoundingModeRTE, SignedZeroInfNanPreserve and DenormPreserve, the
-// macros WORST_NEAREST, WORST_PRESERVES and WORST_DENORMALS say. `how` is a number of the operation's
+// The macros WORST_NEAREST, WORST_PRESERVES and WORST_DENORMALS say whether the entry point declares
+// RoundingModeRTE, SignedZeroInfNanPreserve and DenormPreserve. `how` is a number of the operation's
 // place in the code, or 0 where all places are alike.
 
 // The same for a + b as for b + a.
@@ -266,7 +266,7 @@ float worst_ceil(const float x, const uint how) { return ceil(worst_flushed(x, h
 float worst_trunc(const float x, const uint how) { return trunc(worst_flushed(x, how)); }
 float worst_round_even(const float x, const uint how) { return roundEven(worst_flushed(x, how)); }
 
-// Which way a half goes is the driver's choice.
+// The driver chooses which way a half is rounded.
 float worst_round(const float x, const uint how) {
     float even = roundEven(worst_flushed(x, how));
     float beside = 2.0 * x - even;
@@ -685,7 +685,7 @@ vec2 worst_query_weights(const vec2 weights, const uint how) {
 }
 
 #if WORST_TRIANGLES
-// What a hit shader is told may be of a box, too.
+// The t of a hit shader may belong to a box.
 float worst_hit_t(const float t, const uint how) {
     bool is_triangle = gl_HitKindEXT >= gl_HitKindFrontFacingTriangleEXT;
     return mix(t, worst_query_t(t, how), is_triangle);

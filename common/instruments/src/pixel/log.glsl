@@ -1,5 +1,5 @@
-// What a shader of a pixel that is traced alone writes down. One invocation follows the other, so the entries
-// stand in the order of time. The first word counts those after it.
+// The log of a pixel that is traced alone. One invocation follows the other, so the entries are in the order
+// of time. The first word counts the words after it.
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayLog { uint at[]; };
 
 RayLog ray_log() {

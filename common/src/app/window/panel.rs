@@ -55,7 +55,7 @@ pub struct Panel {
     /// The shader error, until it is fixed.
     pub error: Option<String>,
     note: Option<(String, Instant)>,
-    /// What the user chose; before that the width of the window decides.
+    /// The user's choice; before that, the width of the window decides.
     shown: Option<bool>,
     help: bool,
     width: f32,
@@ -224,7 +224,7 @@ impl Panel {
         });
     }
 
-    /// What stands for the panel where there is no room for it, until the user opens it or presses Tab.
+    /// The button in place of the panel where there is no room, until the user opens it or presses Tab.
     fn folded(&mut self, context: &Context) {
         let area = Area::new(Id::new("folded")).anchor(Align2::LEFT_TOP, [MARGIN / 2.0; 2]);
         area.show(context, |ui| {
