@@ -6,6 +6,7 @@
 mod calls;
 mod cones;
 mod floats;
+mod frame;
 mod lens;
 mod lights;
 mod march;
@@ -17,6 +18,7 @@ mod shapes;
 mod shutter;
 mod squares;
 mod structures;
+mod surfaces;
 mod table;
 mod walk;
 
@@ -40,8 +42,10 @@ const DRAWINGS: &[Drawing] = &[
     ("callable_calls", calls::callable_calls),
     ("camera_ray", rays::camera_ray),
     ("edge_plane", rays::edge_plane),
+    ("disk_points", surfaces::disk_points),
     ("ellipse", cones::ellipse),
     ("footprint", rays::footprint),
+    ("frame_barriers", frame::barriers),
     ("from_raster", rays::from_raster),
     ("heightfield_steps", march::steps),
     ("micro_bound", micro::bound),
@@ -58,6 +62,7 @@ const DRAWINGS: &[Drawing] = &[
     ("shutter_times", shutter::times),
     ("slabs", shapes::slabs),
     ("sphere_foot", shapes::foot),
+    ("squashed_normals", surfaces::squashed_normals),
     ("swept", shapes::swept),
     ("solid_angles", lights::solid_angles),
     ("sobol_boxes", squares::boxes),
