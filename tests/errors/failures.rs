@@ -23,8 +23,8 @@ fn is_safe(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
 #[test]
 fn the_first_and_the_last_call_of_each_function_may_fail() {
     assert!(is_safe("01_foundation", ends));
-    // Of the framework's chapters it has the most kinds of objects.
-    assert!(is_safe("25_scene_effects", ends));
+    // It has a compute shader, updates and copies beside the framework's usual objects.
+    assert!(is_safe("14_animation", ends));
 }
 
 #[test]
