@@ -206,7 +206,7 @@ fn table(gpu: &Gpu, sbt: &ShaderBindingTable, scene: &Scene) -> Vec<String> {
         lines.push(format!("{name:<10} {offset:>7} {stride:>7} {records:>8}"));
     }
     let hit = sbt.layout.regions[2];
-    let fields = Look::LAYOUT.fields.iter().map(|(name, at)| format!("{} {name}", handle + at));
+    let fields = Look::LAYOUT.fields.iter().map(|(name, at, _)| format!("{} {name}", handle + at));
     let fields = fields.collect::<Vec<_>>().join(", ");
     let (end, stride) = (handle + Look::LAYOUT.size, hit.stride);
     lines.push(format!("hit record: 0 handle, {fields}, {end} nothing, {stride} the next"));

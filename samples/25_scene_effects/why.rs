@@ -1,6 +1,6 @@
-//! `--why`: each effect with the reason why the scene calls for it or not, and what leaving it out saves.
+//! `--why`: each effect, the reason why the scene needs it or not, and the saving of leaving it out.
 //!
-//! An effect that the scene calls for is taken out of its pipeline, one that it does not call for is put in; both are
+//! An effect that the scene needs is taken out of its pipeline, one that it does not need is put in; both are
 //! timed against the scene's own pipeline in turns, and counted by a GPU's compiler.
 
 use anyhow::Result;
@@ -19,8 +19,8 @@ use crate::Demo;
 /// Arguments of this chapter, beside every sample's.
 #[derive(clap::Args)]
 pub struct Why {
-    /// Print each effect, why the scene calls for it or not, and what leaving it out saves: milliseconds here, and
-    /// instructions by Mesa's compiler for AMD's RDNA 3. About a minute; --frames is the number of rounds
+    /// Print each effect, why the scene needs it or not, and what leaving it out saves: milliseconds here, and
+    /// instructions by Mesa's compiler for AMD's RDNA 3. A minute or more; --frames is the number of rounds
     #[arg(long)]
     why: bool,
 }
@@ -100,13 +100,16 @@ struct Row {
 struct Table;
 
 impl RunHooks for Table {
+    fn has_result(&self) -> bool {
+        true
+    }
+
     fn begin(&mut self, run: &mut Run) -> Result<()> {
         let report = run.sample.report()?;
         let reasons: Vec<Reason> = serde_json::from_value(report["effects"].clone())?;
-        let (called_for, others): (Vec<_>, Vec<_>) =
-            reasons.iter().partition(|reason| reason.needed);
+        let (needed, others): (Vec<_>, Vec<_>) = reasons.iter().partition(|reason| reason.needed);
         // The pipelines are made in this order: the scene's own, one for each row, and that with everything.
-        let without = timed(run, "without", &called_for)?;
+        let without = timed(run, "without", &needed)?;
         let also = timed(run, "also", &others)?;
         let pipelines = ["specialised", "everything"].map(str::to_owned);
         let pipelines = compare::of_run(run, "pipeline", &pipelines)?;
@@ -116,8 +119,7 @@ impl RunHooks for Table {
             .iter()
             .map(|reason| {
                 let same = |other: &&Reason| other.name == reason.name;
-                let place =
-                    called_for.iter().chain(&others).copied().position(|other| same(&other));
+                let place = needed.iter().chain(&others).copied().position(|other| same(&other));
                 let with = place.and_then(|place| counts.get(1 + place));
                 let more = with.zip(counts.first()).map(|(with, own)| with - own);
                 let comparison = if reason.needed { &without } else { &also };
@@ -169,7 +171,7 @@ fn instructions(run: &Run) -> Result<Vec<i64>> {
 /// Everything that the command prints.
 fn page(run: &Run, rows: &[Row], pipelines: &Comparison, compiled: &Result<Vec<i64>>) -> String {
     let counts = compiled.as_deref().unwrap_or_default();
-    let called_for = rows.iter().filter(|row| row.reason.needed).count();
+    let needed = rows.iter().filter(|row| row.reason.needed).count();
     let [own, all] = [counts.first(), counts.last()].map(|count| match count {
         Some(count) => format!(", {} instructions", grouped(*count)),
         None => String::new(),
@@ -180,7 +182,7 @@ fn page(run: &Run, rows: &[Row], pipelines: &Comparison, compiled: &Result<Vec<i
     let refused = refused.map_or(String::new(), |why| format!("No instructions: {why:#}\n"));
     format!(
         "{} · {} · {} rounds\n\n\
-         {called_for} of {} effects, this scene's own pipeline: {:.1} ms a frame{own}\n\
+         {needed} of {} effects, this scene's own pipeline: {:.1} ms a frame{own}\n\
          all of them in one pipeline: {:.1} ms a frame, {median:.2} times as long ({low:.2} to {high:.2}){all}\n\n\
          {}\n\
          ✓  called for: leaving it out would save this and change the picture\n\

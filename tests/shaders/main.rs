@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use common::gpu::shader::{Shader, compile};
-use common::gpu::{Known, Reflection, StructLayout};
+use common::gpu::{Known, Reflection, Scalar, StructLayout};
 use common::scene::{CameraBasis, DirectionalLight, SceneAddresses};
 
 common::shader_struct! {
@@ -77,18 +77,28 @@ fn structures_are_the_same_in_rust_and_in_every_shader() {
 fn a_structure_that_differs_is_refused_by_name() {
     let stage = compile("02_basic/shade.rchit").unwrap();
     let reflection = Reflection::of(&stage.spirv).unwrap();
-    let layout = |fields: &'static [(&'static str, usize)], size| StructLayout {
+    let layout = |fields: &'static [(&'static str, usize, Option<Scalar>)], size| StructLayout {
         name: "Vertex",
         fields,
         size,
     };
-    let right = layout(&[("position", 0), ("normal", 12), ("uv", 24)], 32);
+    const FLOAT: Option<Scalar> = Some(Scalar::Float);
+    const UINT: Option<Scalar> = Some(Scalar::Uint);
+    const POSITION: (&str, usize, Option<Scalar>) = ("position", 0, FLOAT);
+    let right = layout(&[POSITION, ("normal", 12, FLOAT), ("uv", 24, FLOAT)], 32);
     reflection.check("a.rchit", &[right]).unwrap();
     for (wrong, words) in [
-        (layout(&[("position", 0), ("normal", 16), ("uv", 24)], 32), "Vertex.normal is 12 bytes"),
-        (layout(&[("position", 0), ("uv", 24)], 32), "Vertex.normal is in the shader but not in"),
         (
-            layout(&[("position", 0), ("normal", 12), ("uv", 24), ("id", 32)], 32),
+            layout(&[POSITION, ("normal", 16, FLOAT), ("uv", 24, FLOAT)], 32),
+            "Vertex.normal is 12 bytes",
+        ),
+        (
+            layout(&[POSITION, ("normal", 12, UINT), ("uv", 24, FLOAT)], 32),
+            "Vertex.normal is made of float in the shader, and of u32 in Rust",
+        ),
+        (layout(&[POSITION, ("uv", 24, FLOAT)], 32), "Vertex.normal is in the shader but not in"),
+        (
+            layout(&[POSITION, ("normal", 12, FLOAT), ("uv", 24, FLOAT), ("id", 32, UINT)], 32),
             "Vertex lacks id, which Rust has",
         ),
         (layout(right.fields, 48), "Vertex takes 32 bytes in the shader, 48 in Rust"),

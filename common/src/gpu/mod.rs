@@ -40,7 +40,9 @@ pub use memory::texture::TextureTable;
 pub use pipeline::cache::PipelineCache;
 pub use pipeline::desc::{Attachments, Binding, Group, PipelineDesc, Stage};
 pub use pipeline::enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
-pub use pipeline::layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
+pub use pipeline::layout::{
+    Address, EnumLayout, Known, Scalar, ShaderStruct, ShaderType, StructLayout,
+};
 pub use pipeline::sbt::{Record, ShaderBindingTable};
 pub use pipeline::{
     Asked, AskedRecord, Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline,

@@ -181,14 +181,14 @@ impl Pipeline {
         for offset in offsets {
             let bytes = &bytemuck::bytes_of(push)[offset..][..size_of::<vk::DeviceAddress>()];
             let address: vk::DeviceAddress = bytemuck::pod_read_unaligned(bytes);
-            let field = T::LAYOUT.fields.iter().rev().find(|(_, at)| *at <= offset);
+            let field = T::LAYOUT.fields.iter().rev().find(|(_, at, _)| *at <= offset);
             ensure!(
                 address == 0 || self.gpu.arrays().from(address).is_some(),
                 "pipeline '{}': no buffer lies at {address:#x}, the address in {}.{}; was it dropped? It must live \
                  as long as it is read",
                 self.desc.name,
                 T::LAYOUT.name,
-                field.map_or("", |(name, _)| name)
+                field.map_or("", |(name, ..)| name)
             );
         }
         Ok(())

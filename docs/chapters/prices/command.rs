@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
 use common::files::check_writable;
 use common::output::{complain, print};
 use instruments::columns::columns;
@@ -24,19 +25,25 @@ pub struct PricesArguments {
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = rounds, allow_hyphen_values = true)]
     rounds: u32,
     /// Only rows that have this word
-    #[arg(long, value_name = "WORD")]
+    #[arg(long, value_name = "WORD", value_parser = NonEmptyStringValueParser::new())]
     only: Option<String>,
     /// Use this device: a number of --list-devices or a part of its name
     #[arg(long, value_name = "N|NAME")]
     device: Option<String>,
     /// Draw the picture "Same price" instead: four pictures by the textbook and by ours
-    #[arg(long, value_name = "FILE.png", conflicts_with = "only")]
+    #[arg(long, value_name = "FILE.png", conflicts_with = "only", value_parser = png)]
     picture: Option<PathBuf>,
 }
 
 fn rounds(text: &str) -> Result<u32, String> {
     let known = text.parse().ok().filter(|rounds| (3..=1000).contains(rounds));
     known.ok_or_else(|| "rounds are a whole number from 3 to 1000".to_owned())
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    let known = file.extension().is_some_and(|extension| extension == "png");
+    known.then_some(file).ok_or_else(|| "the picture is a .png file".to_owned())
 }
 
 impl PricesArguments {

@@ -60,7 +60,10 @@ fn finish(command: &mut Command) -> Result<()> {
     let is_why = |line: &&str| line.contains("error") || line.contains("panicked");
     let why = ended.said.lines().chain(ended.told.lines()).find(is_why).map(str::to_owned);
     match ended.failed() {
-        Some(failed) => bail!("{}", why.unwrap_or(failed)),
+        Some(failed) => {
+            let why = why.as_deref().map(|line| line.strip_prefix("error: ").unwrap_or(line));
+            bail!("{}", why.unwrap_or(&failed))
+        }
         None => Ok(()),
     }
 }

@@ -10,7 +10,7 @@ use rspirv::dr::{Module, Operand};
 use rspirv::spirv::{Decoration, ImageFormat, Op, StorageClass};
 
 use crate::gpu::pipeline::desc::Binding;
-use crate::gpu::pipeline::layout::StructLayout;
+use crate::gpu::pipeline::layout::{Scalar, StructLayout};
 pub use rays::{Passed, Payloads};
 
 /// A descriptor as a shader declares it.
@@ -22,6 +22,16 @@ pub struct Bound {
     pub binding: u32,
     /// The kind of resource, in words.
     pub kind: &'static str,
+}
+
+/// A member of a structure as a shader declares it.
+pub struct Member {
+    /// Its name.
+    pub name: String,
+    /// Its offset in bytes.
+    pub offset: usize,
+    /// The numbers it is made of; `None` for addresses, structures and numbers of other sizes.
+    pub scalar: Option<Scalar>,
 }
 
 /// The structures declared in a shader module.
@@ -40,35 +50,66 @@ impl Reflection {
         Ok(Self { module })
     }
 
-    /// Every structure that has offsets: its name and, by member, name and offset in bytes.
-    pub fn structs(&self) -> Vec<(String, Vec<(String, usize)>)> {
+    /// Every structure that has offsets: its name and its members.
+    pub fn structs(&self) -> Vec<(String, Vec<Member>)> {
         let structs =
             self.module.types_global_values.iter().filter(|i| i.class.opcode == Op::TypeStruct);
         let mut found = Vec::new();
-        for (id, count) in structs.filter_map(|i| Some((i.result_id?, i.operands.len()))) {
-            let name = self.debug_name(id, None);
-            let members: Option<Vec<_>> = (0..count as u32)
-                .map(|member| Some((self.debug_name(id, Some(member)), self.offset(id, member)?)))
-                .collect();
-            found.extend(members.map(|members| (name, members)));
+        for (id, types) in structs.filter_map(|i| Some((i.result_id?, &i.operands))) {
+            let members = (0..).zip(types).map(|(number, of)| {
+                let name = self.debug_name(id, Some(number));
+                let Operand::IdRef(of) = of else { return None };
+                Some(Member { name, offset: self.offset(id, number)?, scalar: self.scalar(*of) })
+            });
+            let members: Option<Vec<_>> = members.collect();
+            found.extend(members.map(|members| (self.debug_name(id, None), members)));
         }
         found
+    }
+
+    /// The 32-bit numbers that a scalar, a vector, a matrix or an array is made of.
+    fn scalar(&self, mut id: u32) -> Option<Scalar> {
+        let types = &self.module.types_global_values;
+        // A type comes after those that it is made of, so this ends.
+        loop {
+            let of = types.iter().find(|i| i.result_id == Some(id))?;
+            match (of.class.opcode, &of.operands[..]) {
+                (Op::TypeFloat, [Operand::LiteralBit32(32), ..]) => return Some(Scalar::Float),
+                (Op::TypeInt, [Operand::LiteralBit32(32), Operand::LiteralBit32(0)]) => {
+                    return Some(Scalar::Uint);
+                }
+                (Op::TypeInt, [Operand::LiteralBit32(32), _]) => return Some(Scalar::Int),
+                (
+                    Op::TypeVector | Op::TypeMatrix | Op::TypeArray,
+                    &[Operand::IdRef(element), ..],
+                ) if element < id => id = element,
+                _ => return None,
+            }
+        }
     }
 
     /// Compares every structure with the one of the same name in `known`, if there is one.
     ///
     /// # Errors
-    /// On the first field that differs; names structure, field and both offsets.
+    /// On the first field that differs; names structure, field and both offsets, or both types.
     pub fn check(&self, path: &str, known: &[StructLayout]) -> Result<()> {
         for (name, members) in self.structs() {
             let Some(layout) = known.iter().find(|layout| layout.name == name) else { continue };
-            for (member, offset) in &members {
-                match layout.fields.iter().find(|(field, _)| field == member) {
-                    Some((_, expected)) if expected == offset => {}
-                    Some((_, expected)) => bail!(
+            for Member { name: member, offset, scalar } in &members {
+                match layout.fields.iter().find(|(field, ..)| field == member) {
+                    Some((_, expected, _)) if expected != offset => bail!(
                         "{path}: {name}.{member} is {offset} bytes from the start in the shader, \
                          {expected} in Rust; the fields and their order must be the same"
                     ),
+                    Some((.., Some(expected))) if scalar.is_some_and(|of| of != *expected) => {
+                        bail!(
+                            "{path}: {name}.{member} is made of {} in the shader, and of {} in Rust; both must be the \
+                         same type",
+                            scalar.map_or("other numbers", Scalar::in_glsl),
+                            expected.in_rust()
+                        )
+                    }
+                    Some(_) => {}
                     None => bail!("{path}: {name}.{member} is in the shader but not in Rust"),
                 }
             }
@@ -80,8 +121,8 @@ impl Reflection {
                 let missing = layout
                     .fields
                     .iter()
-                    .map(|(field, _)| *field)
-                    .filter(|field| !members.iter().any(|(member, _)| member == field));
+                    .map(|(field, ..)| *field)
+                    .filter(|field| !members.iter().any(|member| member.name == *field));
                 let missing: Vec<_> = missing.collect();
                 bail!("{path}: {name} lacks {}, which Rust has", missing.join(", "));
             }

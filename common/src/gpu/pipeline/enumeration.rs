@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 
 use anyhow::{Result, bail, ensure};
 
-use crate::gpu::pipeline::layout::{EnumLayout, Known, ShaderType};
+use crate::gpu::pipeline::layout::{EnumLayout, Known, Scalar, ShaderType};
 
 /// An enumeration known to Rust, the panel and perhaps shaders. Implemented by
 /// [`shader_enum!`](crate::shader_enum).
@@ -180,6 +180,8 @@ unsafe impl<T: 'static> bytemuck::Zeroable for Number<T> {}
 unsafe impl<T: 'static> bytemuck::Pod for Number<T> {}
 
 impl<T: ShaderEnum> ShaderType for Number<T> {
+    const SCALAR: Option<Scalar> = Some(Scalar::Uint);
+
     fn reach(known: &mut Known) {
         known.add_enum(T::LAYOUT);
     }

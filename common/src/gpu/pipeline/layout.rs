@@ -54,8 +54,47 @@ unsafe impl<T: 'static> bytemuck::Zeroable for Address<T> {}
 // SAFETY: it is two u32 and nothing else.
 unsafe impl<T: 'static> bytemuck::Pod for Address<T> {}
 
+/// The kind of number that a field is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scalar {
+    /// `f32`, in GLSL `float` and its vectors.
+    Float,
+    /// `i32`, in GLSL `int` and its vectors.
+    Int,
+    /// `u32`, in GLSL `uint` and its vectors.
+    Uint,
+}
+
+impl Scalar {
+    /// The word in Rust.
+    pub fn in_rust(self) -> &'static str {
+        match self {
+            Self::Float => "f32",
+            Self::Int => "i32",
+            Self::Uint => "u32",
+        }
+    }
+
+    /// The word in GLSL.
+    pub fn in_glsl(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::Int => "int",
+            Self::Uint => "uint",
+        }
+    }
+}
+
 /// A type allowed as a field of a structure for shaders.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be a field of a structure for shaders",
+    note = "use f32, i32, u32, the vectors of glam, an array of them, an `Address` or another `shader_struct!`; for a \
+            bool, a u32 that is 0 or 1"
+)]
 pub trait ShaderType {
+    /// The numbers it is made of; `None` for addresses and structures.
+    const SCALAR: Option<Scalar> = None;
+
     /// Adds the declarations that shaders have under the same name: by default none.
     fn reach(_: &mut Known) {}
 
@@ -100,10 +139,15 @@ impl Known {
     }
 }
 
-macro_rules! plain {
-    ($($type:ty),+) => { $(impl ShaderType for $type {})+ };
+macro_rules! made_of {
+    ($scalar:expr => $($type:ty),+) => {
+        $(impl ShaderType for $type { const SCALAR: Option<Scalar> = $scalar; })+
+    };
 }
-plain!((), f32, i32, u32, glam::Mat3, glam::UVec2, glam::UVec3, glam::Vec2, glam::Vec3, glam::Vec4);
+made_of!(None => ());
+made_of!(Some(Scalar::Float) => f32, glam::Mat3, glam::Vec2, glam::Vec3, glam::Vec4);
+made_of!(Some(Scalar::Int) => i32);
+made_of!(Some(Scalar::Uint) => u32, glam::UVec2, glam::UVec3);
 
 impl<T: ShaderType> ShaderType for Address<T> {
     fn reach(known: &mut Known) {
@@ -116,6 +160,8 @@ impl<T: ShaderType> ShaderType for Address<T> {
 }
 
 impl<T: ShaderType, const N: usize> ShaderType for [T; N] {
+    const SCALAR: Option<Scalar> = T::SCALAR;
+
     fn reach(known: &mut Known) {
         T::reach(known);
     }
@@ -125,8 +171,8 @@ impl<T: ShaderType, const N: usize> ShaderType for [T; N] {
     }
 }
 
-/// One field: name, offset in bytes.
-pub type Field = (&'static str, usize);
+/// One field: name, offset in bytes, and the numbers it is made of.
+pub type Field = (&'static str, usize, Option<Scalar>);
 
 /// A structure shared with shaders. Implemented by [`shader_struct!`](crate::shader_struct).
 pub trait ShaderStruct: bytemuck::Pod + ShaderType {
@@ -162,7 +208,7 @@ pub struct EnumLayout {
 ///
 /// ```
 /// raybook::shader_struct! {
-///     /// What every ray of a frame needs.
+///     /// The values that every ray of a frame needs.
 ///     pub struct Push { pub origin: raybook::glam::Vec3, pub samples: u32 }
 /// }
 /// ```
@@ -193,7 +239,11 @@ macro_rules! shader_struct {
         impl $crate::gpu::ShaderStruct for $name {
             const LAYOUT: $crate::gpu::StructLayout = $crate::gpu::StructLayout {
                 name: stringify!($name),
-                fields: &[$((stringify!($field), ::std::mem::offset_of!($name, $field))),+],
+                fields: &[$((
+                    stringify!($field),
+                    ::std::mem::offset_of!($name, $field),
+                    <$type as $crate::gpu::ShaderType>::SCALAR,
+                )),+],
                 size: ::std::mem::size_of::<$name>(),
             };
         }

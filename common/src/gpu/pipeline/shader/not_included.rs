@@ -12,6 +12,10 @@ const RAY_TRACING: &str = "GL_EXT_ray_tracing";
 /// `file:line: `, and `path` is the shader's own.
 pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
     let (place, what) = message.split_once(": ")?;
+    // A missing member is in no other file: its structure has been found.
+    if what.contains("no such field") {
+        return None;
+    }
     let named = what.split('\'').nth(1).filter(|name| !name.is_empty());
     let found = line(path, place, text);
     let names: Vec<&str> = match named {
@@ -100,6 +104,15 @@ fn declares(text: &str, name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_missing_member_is_sought_in_no_other_file() {
+        let text = "#extension GL_EXT_ray_tracing : require\nuint r = push.random;\n";
+        let message = |what: &str| format!("02_basic/camera.rgen:2: 'random' : {what}");
+        let found = |what: &str| hint("02_basic/camera.rgen", &message(what), text);
+        assert_eq!(found("no such field in structure 'push'"), None);
+        assert!(found("undeclared identifier").is_some_and(|hint| hint.contains("random.glsl")));
+    }
 
     #[test]
     fn a_line_is_found_behind_includes() {

@@ -70,8 +70,6 @@ impl Sample for Demo {
         let last = world.instances.len() - 1;
         let sphere_instance = instance_on_gpu(&Affine3A::IDENTITY, last, 1, &sphere);
         scene.tlas = build_top(gpu, &meshes.chain([sphere_instance]).collect::<Vec<_>>())?;
-        // The top level refers to it, so it must live as long.
-        scene.blas.push(sphere);
         // Six lamps in a ring, from blue to red. They stay in memory as long as the buffer lives.
         let lamp = |i: u8| {
             let (x, z) = (TAU * f32::from(i) / 6.0).sin_cos();

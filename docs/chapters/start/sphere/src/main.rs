@@ -57,8 +57,6 @@ impl Sample for Demo {
         let last = world.instances.len() - 1;
         let sphere_instance = instance_on_gpu(&Affine3A::IDENTITY, last, 1, &sphere);
         scene.tlas = build_top(gpu, &meshes.chain([sphere_instance]).collect::<Vec<_>>())?;
-        // The top level refers to it, so it must live as long.
-        scene.blas.push(sphere);
         let pipeline = RayTracingPipeline::builder("my_tracer")
             .raygen("camera.rgen")
             .miss("common/sky.rmiss")
