@@ -30,6 +30,8 @@ fn wrong_arguments_are_one_line() {
     for (arguments, part) in [
         (&["--only", "no such row"][..], "no row has 'no such row'; there is: a ray starts"),
         (&["--rounds", "2"], "rounds are a whole number from 3 to 1000"),
+        (&["--only", ""], "a value is required for '--only <WORD>'"),
+        (&["--picture", "a.jpg"], "the picture is a .png file"),
     ] {
         let outcome = prices(arguments);
         assert_eq!(outcome.code, 2, "{arguments:?}: {}", outcome.err);
