@@ -243,6 +243,12 @@ fn structures_that_differ_name_the_field() {
             "MaterialRecord takes 60 bytes in the shader, 56 in Rust",
         ),
         ("common/scene.glsl", "uint mesh;", "", "InstanceRecord lacks mesh, which Rust has"),
+        (
+            "common/scene.glsl",
+            "uint mesh;",
+            "int mesh;",
+            "InstanceRecord.mesh is made of int in the shader, and of u32 in Rust",
+        ),
     ] {
         let folder = folder(file, |text| text.replacen(from, to, 1));
         shaders_refused(folder.path(), &["02_basic/camera.rgen: ", words]);
