@@ -1,11 +1,11 @@
-// What the looks share: the data of the record, the surface, and a polished finish.
+// Shared by the looks: the data of the record, the surface, and a polished finish.
 #include "push.glsl"
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
 hitAttributeEXT vec2 barycentrics;
 
 // ANCHOR: look
-// What follows the handle in this shader's record.
+// The data after the handle in this shader's record.
 layout(shaderRecordEXT, scalar) buffer Look {
     vec3 tint;
     float scale;         // of the texture: larger is finer
@@ -55,7 +55,7 @@ vec3 polished(vec3 base, vec3 normal) {
     return mix(color, sky(reflect(-view, normal)), fresnel * (1.0 - look.roughness));
 }
 
-// What a look answers: its colour, or the number of its group or record.
+// The result of a look: its colour, or the number of its group or record.
 vec4 answer(uint group, vec3 color) {
     if (push.show == SHOW_GROUP) {
         return vec4(GROUP_COLOR[group], group);

@@ -43,7 +43,7 @@ vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     }
 }
 
-// Whether that is the plane from inside, in a colour of its own that asks for no light.
+// Tests for the plane seen from inside, in a colour of its own that needs no light.
 bool shines(Hit hit) {
     return INSIDE == INSIDE_COLOR && hit.instance == PLANE && hit.material == SIDE_INSIDE;
 }

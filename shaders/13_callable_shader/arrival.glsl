@@ -1,4 +1,4 @@
-// What a light sends to a point: asked of a callable shader, or of a function.
+// The light that arrives at a point, computed by a callable shader or by a function.
 
 struct Arrival {
     vec3 from;         // the point

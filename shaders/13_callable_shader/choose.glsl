@@ -1,4 +1,4 @@
-// Which pattern a surface has is in its material's data. Here it becomes code, in one of two ways.
+// The material's data holds the number of its pattern. Here the number selects code, in one of two ways.
 #include "common/pattern.glsl"
 #include "finish.glsl"
 

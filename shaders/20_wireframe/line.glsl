@@ -1,4 +1,4 @@
-// How far a pixel is from the edges of the triangle that its ray met.
+// The distance of a pixel from the edges of the triangle that its ray hit.
 
 // The distances in pixels to the three edges, each opposite its corner; inside the triangle all are
 // positive. Everything is in object space: the corners, the eye, the basis of the picture.
@@ -26,7 +26,7 @@ vec3 edge_distances(vec3 corners[3], vec3 eye, vec3 direction, vec3 right, vec3 
     return distances;
 }
 
-// How much of the pixel the triangle's lines cover, 0 to 1, for closest hit and any-hit shaders. Half of a
+// The fraction of the pixel that the triangle's lines cover, for closest hit and any-hit shaders. Half of a
 // line belongs to the triangle on this side of the edge.
 float line_coverage(vec2 barycentrics) {
     vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
     DirectionalLight light;
 } push;
 
-// How far above its surface a shadow ray starts.
+// The height above its surface at which a shadow ray starts.
 layout(constant_id = 1) const uint OFFSET = 0;
 const uint OFFSET_BOUND = 0;
 const uint OFFSET_CONSTANT = 1;
