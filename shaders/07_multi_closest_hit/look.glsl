@@ -10,7 +10,7 @@ layout(shaderRecordEXT, scalar) buffer Look {
     vec3 tint;
     float scale;         // of the texture: larger is finer
     float roughness;
-    uint record;         // the record's number, which also says what block a piece is cut from
+    uint record;         // the record's number, also the seed of the piece's pattern
 } look;
 // ANCHOR_END: look
 

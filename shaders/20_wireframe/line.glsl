@@ -31,7 +31,7 @@ vec3 edge_distances(vec3 corners[3], vec3 eye, vec3 direction, vec3 right, vec3 
 float line_coverage(vec2 barycentrics) {
     vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     if (CONSTANT == CONSTANT_WEIGHT) {
-        // A hundredth of the triangle for each pixel asked for: no pixel is in this at all.
+        // A hundredth of the triangle for each pixel of the width: this ignores the pixel's real size.
         return min(w.x, min(w.y, w.z)) < 0.01 * push.width ? 1.0 : 0.0;
     }
     mat3 to_object = mat3(gl_WorldToObjectEXT);
