@@ -8,7 +8,7 @@ bool before(ListedHit a, ListedHit b) {
     return a.instance != b.instance ? a.instance < b.instance : a.triangle < b.triangle;
 }
 
-// The device offers hits in any order; by distance they mean something. Insertion sort, in place.
+// Sorts by distance, because the device finds hits in any order. Insertion sort, in place.
 void sort_list(uint first, uint count) {
     for (uint i = 1; i < count; i++) {
         ListedHit hit = push.hits.at[first + i];
@@ -28,7 +28,7 @@ vec3 heat(float x) {
     return mix(middle, vec3(1.0, 0.96, 0.85), clamp(3.0 * x - 2.0, 0.0, 1.0));
 }
 
-// The picture of a list: the count as a heat map, or the surface at one depth.
+// The view of a list: the count as a heat map, or the surface at one depth.
 vec4 show_list(uint pixel, uint count) {
     uint first = pixel * MAX_HITS;
     uint listed = min(count, MAX_HITS);

@@ -1,16 +1,16 @@
-// The parts that all looks share: the data of the record, the surface, and a polished finish.
+// Shared by the looks: the data of the record, the surface, and a polished finish.
 #include "push.glsl"
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
 hitAttributeEXT vec2 barycentrics;
 
 // ANCHOR: look
-// What follows the handle in this shader's record.
+// The data after the handle in this shader's record.
 layout(shaderRecordEXT, scalar) buffer Look {
     vec3 tint;
     float scale;         // of the texture: larger is finer
     float roughness;
-    uint record;         // the record's number, which also says what block a piece is cut from
+    uint record;         // the record's number, also the seed of the piece's pattern
 } look;
 // ANCHOR_END: look
 

@@ -26,7 +26,7 @@ float noise(vec3 p, uint seed) {
     return mix(y.x, y.y, w.z);
 }
 
-// The part of a detail of this size that is left for a pixel this wide: none if it is wider than half.
+// The visible fraction of a detail of this size: none if a pixel is wider than half of it.
 float detail(float size, float width) {
     return 1.0 - smoothstep(0.25 * size, 0.5 * size, width);
 }

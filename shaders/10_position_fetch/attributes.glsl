@@ -13,7 +13,7 @@ struct MeshRecord {
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Meshes { MeshRecord at[]; };
 
-// As 02's, with corners from elsewhere, and attributes where vertices were.
+// As in 02, but the corners are arguments, and attributes replace the vertices.
 Surface surface_at(vec3 corners[3], MeshRecord mesh, uvec3 index, vec2 barycentrics) {
     Attributes a = mesh.vertices.at[index.x];
     Attributes b = mesh.vertices.at[index.y];

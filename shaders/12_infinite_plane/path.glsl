@@ -43,7 +43,7 @@ vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     }
 }
 
-// True for the plane from inside, which has a colour of its own and needs no light.
+// Tests for the plane seen from inside, in a colour of its own that needs no light.
 bool shines(Hit hit) {
     return INSIDE == INSIDE_COLOR && hit.instance == PLANE && hit.material == SIDE_INSIDE;
 }

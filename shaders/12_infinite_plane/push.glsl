@@ -28,7 +28,7 @@ layout(push_constant, scalar) uniform Push {
     float minimum_contribution;
 } push;
 
-// When the plane is tested.
+// The time of the plane's test: before the trace or after it.
 layout(constant_id = 1) const uint PLANE_TEST = 0;
 const uint TEST_BEFORE = 0;
 const uint TEST_AFTER = 1;

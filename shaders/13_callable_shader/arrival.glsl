@@ -1,4 +1,4 @@
-// The light that reaches a point from a lamp, by a callable shader or by a function.
+// The light that arrives at a point, computed by a callable shader or by a function.
 
 struct Arrival {
     vec3 from;         // the point

@@ -1,4 +1,4 @@
-// A material's data has the number of its pattern. Here the number selects code, in one of two ways.
+// The material's data holds the number of its pattern. Here the number selects code, in one of two ways.
 #include "common/pattern.glsl"
 #include "finish.glsl"
 

@@ -6,10 +6,10 @@
 #include "common/false_color.glsl"
 #include "common/show.glsl"
 
-// The finish of a material.
+// The look of a material.
 struct Finish {
     vec3 first;
-    float scale;      // cells of the lattice a unit
+    float scale;      // cells of the lattice per unit
     vec3 second;
     uint pattern;
 };

@@ -1,4 +1,4 @@
-// The report of a hit shader, whatever the surface's pattern is.
+// The report of a hit shader, the same for all patterns.
 #include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT PatternHit seen;

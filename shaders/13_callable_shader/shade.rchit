@@ -6,7 +6,7 @@
 #include "report.glsl"
 #include "choose.glsl"
 
-// The nearest hit; its pattern too, if the hit shader is to ask for it.
+// Reports the nearest hit, and its pattern if the hit shader is the one to call it.
 void main() {
     report();
     if (STAGE == STAGE_HIT && CHOOSE != CHOOSE_HIT_GROUP) {

@@ -26,12 +26,12 @@ vec3 edge_distances(vec3 corners[3], vec3 eye, vec3 direction, vec3 right, vec3 
     return distances;
 }
 
-// The part of the pixel that the triangle's lines cover, 0 to 1, for closest hit and any-hit shaders. Half of
-// a line belongs to the triangle on this side of the edge.
+// The fraction of the pixel that the triangle's lines cover, for closest hit and any-hit shaders. Half of a
+// line belongs to the triangle on this side of the edge.
 float line_coverage(vec2 barycentrics) {
     vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     if (CONSTANT == CONSTANT_WEIGHT) {
-        // A hundredth of the triangle for each pixel asked for: no pixel is in this at all.
+        // A hundredth of the triangle for each pixel of the width: this ignores the pixel's real size.
         return min(w.x, min(w.y, w.z)) < 0.01 * push.width ? 1.0 : 0.0;
     }
     mat3 to_object = mat3(gl_WorldToObjectEXT);

@@ -33,7 +33,7 @@ void main() {
         color = 0.5 + 0.5 * normal;
     }
     // ANCHOR: lines
-    // Darker on a light surface, lighter on a dark one. The fourth number is what the line covers.
+    // Darker on a light surface, lighter on a dark one. The fourth number is the line's coverage.
     float coverage = line_coverage(barycentrics);
     float brightness = dot(color, vec3(0.2126, 0.7152, 0.0722));
     vec3 ink = brightness > 0.1 ? 0.15 * color : color + 0.2;

@@ -20,7 +20,7 @@ struct Board {
     vec2 anchor;         // on which square the plane's anchor lies
 };
 
-// The method for the squares.
+// The method that draws the squares.
 layout(constant_id = 1) const uint CHECKER = 0;
 const uint CHECKER_FILTERED = 0;   // averaged over the pixel
 const uint CHECKER_POINT = 1;      // sampled at its centre

@@ -2,7 +2,7 @@
 //
 // A checker board, averaged over what a pixel sees of it.
 
-// The light part of a box. `middle` and `width` of the box are in squares; the square between 0 and
+// The light fraction of a box. `middle` and `width` of the box are in squares; the square between 0 and
 // 1 in both is light. A stripe pattern of +1 and -1 has the triangle wave for its integral; a checker
 // board is the product of two such patterns, and so is its mean over a box.
 // (Quilez, "Filterable procedurals"; the box filter as in Apodaca and Gritz, Advanced RenderMan, 2000.)

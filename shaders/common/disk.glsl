@@ -5,8 +5,8 @@
 
 struct DiskLight {
     Light light;     // its middle
-    float radius;    // 0 for a mere point
-    uint samples;    // shadow rays a hit, where the radius is not 0
+    float radius;    // 0 for a point
+    uint samples;    // shadow rays per hit, if the radius is not 0
 };
 
 // Point i of n on the unit disk: a sunflower's spiral, started by two random numbers. Each point alone
@@ -18,7 +18,7 @@ vec2 disk_point(uint i, uint n, vec2 start) {
     return radius * vec2(cos(angle), sin(angle));
 }
 
-// From a point to a point of the disk, which faces the one that looks at it.
+// From a point to a point of the disk, which faces it.
 vec3 towards_disk(DiskLight disk, vec3 from, vec2 on_disk) {
     vec3 axis = towards_light(disk.light, from);
     if (disk.radius == 0.0) {

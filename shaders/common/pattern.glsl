@@ -22,7 +22,7 @@ float lattice(ivec3 cell) {
     return to_unit(hash(uvec4(uvec3(cell), 0)).x);
 }
 
-// Where cells have numbers: beyond 2^31 a float is no int.
+// Clamps to where cells have numbers: a float beyond 2^31 does not fit into an int.
 vec3 within(vec3 place) {
     return clamp(place, -1e9, 1e9);
 }

@@ -18,7 +18,7 @@ float to_unit(uint bits) {
 }
 
 // ANCHOR: random
-// What a number is for. Each purpose has numbers of its own, so that dropping one shifts no other.
+// The purpose of a number. Each has numbers of its own, so that dropping one shifts no other.
 const uint DIMENSION_LIGHT = 0;
 const uint DIMENSION_PIXEL = 1;
 

@@ -4,7 +4,7 @@
 #include "common/lighting.glsl"
 #include "common/disk.glsl"
 
-// From 0 to 1. One ray tells if the disk is a mere point; else several rays go to points of it, which begin
+// From 0 to 1. One ray is enough if the disk is a point. Otherwise several rays go to points of it, which start
 // at the random numbers `first`.
 float visible_part(DiskLight disk, RayOrigin start, vec2 first) {
     bool soft = disk.radius > 0.0;
