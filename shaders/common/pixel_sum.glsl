@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sums { Pixel
 // A sample is rounded once, to a multiple of 2^-32, and the sum never: it does not depend on the order,
 // and sums of some samples each add up to the sum of all.
 void add_whole(inout PixelSum sum, vec3 value) {
-    // What is no number, or less than nothing, would spoil all samples of the pixel.
+    // A NaN or a negative value would spoil all samples of the pixel.
     value = clamp(mix(value, vec3(0.0), isnan(value)), 0.0, 65535.0);
     vec3 whole = floor(value);
     uvec3 carry;
