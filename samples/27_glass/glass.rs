@@ -31,8 +31,8 @@ common::shader_struct! {
 pub const AIR: u32 = u32::MAX;
 
 impl From<&Material> for Glass {
-    /// Of the illumination models 6 and 7 say that light is refracted, 4 and 9 that it is not: a body, and a
-    /// sheet. `Tf` is what comes through a sheet, or through one unit of a body.
+    /// Illumination models 6 and 7 refract light and are bodies; 4 and 9 do not and are thin sheets. `Tf` is the
+    /// part of the light that comes through a sheet, or through one unit of a body.
     fn from(material: &Material) -> Self {
         let kind = match material.illumination {
             6 | 7 => Kind::Thick,

@@ -71,7 +71,7 @@ impl AliasTable {
     }
 }
 
-/// Divides shares among columns: one with less than a column gets the rest of its column from one with more.
+/// Divides shares among columns: one too small for its column is filled up from one too large for it.
 fn columns(shares: &[u64], count: usize) -> Vec<Column> {
     let mut left = shares.to_vec();
     left.resize(count, 0);

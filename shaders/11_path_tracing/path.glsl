@@ -17,7 +17,7 @@ vec2 numbers(Path path, uint dimension) {
     return numbers(path.pixel, push.sample_index, path.bounce, dimension, push.seed);
 }
 
-// Adds what a ray meets.
+// Adds the light of a hit, or of the sky.
 void gather(inout Path path, vec3 seen) {
     vec3 light = path.throughput * seen;
     if (path.bounce > 0 && push.most > 0.0) {
@@ -29,7 +29,7 @@ void gather(inout Path path, vec3 seen) {
 // ANCHOR_END: path
 
 // ANCHOR: roulette
-// The largest probability that a path survives a turn: even in a room that swallows nothing, it ends one day.
+// The largest probability that a path survives a bounce, so that it ends even in a room that absorbs nothing.
 const float LIKELIEST = 0.95;
 
 // True if the next ray is worth tracing.
@@ -60,7 +60,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     vec3 color = hit.color;
     float to_eye = max(dot(hit.normal, -ray.direction), 0.0);
     // ANCHOR: light
-    // No ray meets this light by chance: here alone it is asked for.
+    // No ray of the path can hit the sun, so only this shadow ray finds it.
     RayOrigin start = shadow_start(hit);
     float visible = visible_part(push.light, start, numbers(path, DIMENSION_LIGHT));
     vec3 to_light = towards_light(push.light.light, start.origin);
@@ -74,7 +74,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     bool polished = material.illumination >= ILLUMINATION_MIRROR;
     vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
     vec3 rest = color * (1.0 - (polished ? mirror : material.specular));
-    // One of the two ways, and the likelier the more light comes along it.
+    // One of the two ways, chosen the more often the more light it brings.
     float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
     if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
         path.throughput *= mirror / mirrors;

@@ -14,7 +14,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 layout(location = 0) rayPayloadInEXT Seen seen;
 hitAttributeEXT vec2 barycentrics;
 
-// The row to read from a texture of this size.
+// The lookups in a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     if (FOOTPRINT == FOOTPRINT_POINT) {
         return Row(vec2(0.0), 1, 0.0);
@@ -36,7 +36,7 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     }
     Axes axes = ellipse(width, direction, face);
     if (FOOTPRINT == FOOTPRINT_DIFFERENTIALS) {
-        // The picture lies at distance 1 along `forward`: the ray meets it at 1 / dot(direction, forward).
+        // The picture plane is at distance 1 along `forward`, so the ray hits it at 1 / dot(direction, forward).
         float step = seen.cone.spread * dot(direction, push.camera.forward);
         vec3 right = step * normalize(push.camera.right);
         vec3 down = -step * normalize(push.camera.up);

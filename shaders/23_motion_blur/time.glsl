@@ -16,7 +16,7 @@ float sample_time(uvec2 pixel, uint i) {
     }
 }
 
-// The mask of the instances that a ray of this time sees.
+// The cull mask of a ray at this time.
 uint mask_of(float time) {
     return METHOD == METHOD_MOMENTS ? 1u << uint(time * float(push.moments)) : 0xff;
 }

@@ -19,7 +19,7 @@ vec3 arriving_from(DiskLight lamp, vec3 from, vec3 to_point) {
 }
 // ANCHOR_END: by_shadow_ray
 
-// The light of the disk for a ray that happens to meet it; `t` is how far the ray came.
+// The light of the disk for a ray that happens to hit it; `t` is the distance of the ray's own hit, if any.
 vec3 seen_of_light(DiskLight lamp, vec3 origin, vec3 direction, float t) {
     vec3 axis = towards_light(lamp.light, origin);
     float along = dot(axis, direction);

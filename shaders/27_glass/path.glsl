@@ -7,7 +7,7 @@ struct Path {
     vec3 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
-    bool asked;        // whether the next ray leaves a surface that a shadow ray has asked for the light
+    bool asked;        // true if a shadow ray from the next ray's origin has already counted the lamp
     uvec4 media;       // the bodies that the next ray is in
 };
 
@@ -20,7 +20,7 @@ vec2 numbers(Path path, uint dimension) {
     return numbers(path.pixel, push.sample_index, path.bounce, dimension, push.seed);
 }
 
-// Adds what a ray meets.
+// Adds the light of a hit, or of the sky.
 void gather(inout Path path, vec3 seen) {
     vec3 light = path.throughput * seen;
     if (path.bounce > 0 && push.most > 0.0) {
@@ -29,7 +29,7 @@ void gather(inout Path path, vec3 seen) {
     path.color += light;
 }
 
-// True if the next ray is worth tracing. Clear glass takes nothing, so no path through it ends at random.
+// True if the next ray is worth tracing. Clear glass absorbs nothing, so only the depth ends a path in it.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
     if (path.bounce > push.depth || contribution <= 0.0) {
@@ -133,7 +133,7 @@ void advance(inout Path path, inout Ray ray, BodyHit seen) {
     // ANCHOR_END: light
     vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
     vec3 rest = color * (1.0 - (polished ? mirror : material.specular));
-    // One of the two ways, and the likelier the more light comes along it.
+    // One of the two ways, chosen the more often the more light it brings.
     float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
     if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
         path.throughput *= mirror / mirrors;

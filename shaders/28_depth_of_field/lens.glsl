@@ -1,8 +1,8 @@
 // A thin lens: rays start all over it, and those of one point of the picture meet in the plane in focus.
 #include "common/aperture.glsl"
 
-// Two other ways to write the direction to the point in focus. One does not know where the ray really starts,
-// and the other rounds the point.
+// Two other ways to write the direction to the point in focus. The first ignores where the ray really starts,
+// and the second rounds the point.
 vec3 coarse_direction(CameraBasis camera, Lens lens, vec3 to_focus, vec3 offset, vec3 origin) {
     if (RUNG == RUNG_EYE) {
         return to_focus - lens.inverse_focus * offset;

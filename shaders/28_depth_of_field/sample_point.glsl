@@ -4,7 +4,7 @@
 // The purpose of a random number, beside those of earlier chapters.
 const uint DIMENSION_LENS = 5;
 
-// Where the ray of a frame goes through its pixel, or through the lens, in [0, 1)^2.
+// The place in the pixel or on the lens for the ray of a frame, in [0, 1)^2.
 vec2 sample_point(uvec2 pixel, uint i, uint dimension) {
     if (push.sequence == SEQUENCE_CENTRE) {
         return vec2(0.5);
@@ -12,7 +12,7 @@ vec2 sample_point(uvec2 pixel, uint i, uint dimension) {
     // Random numbers that belong to the pixel, or to all of them.
     uvec2 owner = push.scrambling == SCRAMBLING_NONE ? uvec2(0) : pixel;
     uvec4 key = hash(uvec4(owner, push.seed, dimension));
-    // On the lens the points come in an order of its own. Otherwise a place in the pixel would always go
+    // The lens takes the points in a different order. Otherwise a place in the pixel would always go
     // with the same place on the lens.
     i = dimension == DIMENSION_LENS ? owen(i, key.z) : i;
     uvec2 point = hash(uvec4(key.zw, i, 0)).xy;

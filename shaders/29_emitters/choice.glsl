@@ -6,12 +6,12 @@ struct Choice {
     float probability;
 };
 
-// The number of emitters sampled at a hit.
+// The number of shadow rays to emitters at a hit.
 uint choices() {
     return CHOICE == CHOICE_ALL ? push.emitters.count : min(push.emitters.count, 1);
 }
 
-// That one is asked at a hit.
+// The probability that a given emitter is chosen at a hit.
 float probability_of(uint index) {
     if (CHOICE == CHOICE_POWER) {
         return push.emitters.emitters.at[index].probability;
@@ -19,7 +19,7 @@ float probability_of(uint index) {
     return CHOICE == CHOICE_ALL ? 1.0 : 1.0 / float(push.emitters.count);
 }
 
-// Number `i` of those that are asked; `u` chooses.
+// The emitter of shadow ray `i`, chosen by `u`.
 Choice choice(uint i, vec2 u) {
     uint index = i;
     if (CHOICE == CHOICE_ONE) {

@@ -23,7 +23,7 @@ vec2 numbers(Path path, uint dimension) {
     return numbers(path.pixel, push.sample_index, path.bounce, dimension, push.seed);
 }
 
-// Adds what a ray meets.
+// Adds the light of a hit, or of the sky.
 void gather(inout Path path, vec3 seen) {
     vec3 light = path.throughput * seen;
     if (path.bounce > 0 && push.most > 0.0) {
@@ -32,7 +32,7 @@ void gather(inout Path path, vec3 seen) {
     path.color += light;
 }
 
-// True if the next ray is worth tracing. A path that has lost no light does not end at random.
+// True if the next ray is worth tracing. Roulette never ends a path that has lost no light.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
     if (path.bounce > push.depth || contribution <= 0.0) {
@@ -55,7 +55,7 @@ float likelihood(vec3 direction, vec3 normal, vec3 up) {
     return above > 0.0 ? both / 3.14159265 : 0.0;
 }
 
-// A ray has met an emitter. Shadow rays count a part of its light, too. This is the other part.
+// The part of an emitter's light that a ray of the path counts if it hits it. Shadow rays count the rest.
 float part_by_chance(Path path, Ray ray, Hit hit) {
     if (ESTIMATOR == ESTIMATOR_BSDF || path.density == NO_OTHER) {
         return 1.0;
@@ -69,8 +69,8 @@ float part_by_chance(Path path, Ray ray, Hit hit) {
     return chance / max(chance + probability_of(index), 1e-30);
 }
 
-// Adds the light that a surface scatters of sampled emitters. `matte` is the probability that the path
-// scatters, and does not mirror.
+// Adds the light that shadow rays find. `matte` is the probability that the path scatters at this surface
+// instead of being mirrored.
 void ask(inout Path path, Hit hit, MaterialRecord material, vec3 from, float to_eye, float matte) {
     for (uint i = 0; i < choices(); i++) {
         Choice chosen = choice(i, numbers(path, DIMENSION_EMITTER));
@@ -110,7 +110,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     bool polished = material.illumination >= ILLUMINATION_MIRROR;
     vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
     vec3 rest = hit.color * (1.0 - (polished ? mirror : material.specular));
-    // One of the two ways, and the likelier the more light comes along it.
+    // One of the two ways, chosen the more often the more light it brings.
     float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
     // Shadow rays and the next ray start at one place, so that the chances of both are about the same
     // direction. There is no lift to the smooth surface: a path could end up within another surface.

@@ -1,7 +1,7 @@
 // Makes the points of a sequence differ from pixel to pixel.
 #include "common/sequence.glsl"
 
-// Where in the pixel the ray of a frame goes through, in [0, 1)^2.
+// The place in the pixel for the ray of a frame, in [0, 1)^2.
 vec2 sample_point(uvec2 pixel, uint i) {
     if (push.sequence == SEQUENCE_CENTRE) {
         return vec2(0.5);

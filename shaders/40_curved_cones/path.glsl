@@ -55,7 +55,7 @@ void refract_into(inout Ray ray, inout Seen seen, vec3 normal, float curvature, 
     ray.index = to;
 }
 
-// Sends the ray on by a mirror or glass; false if neither does. One ray goes one way: a surface with a colour keeps it.
+// True if a mirror or glass sends the ray on; `ray` is then the next one. A surface with its own colour ends it.
 bool sent_on(inout Ray ray, inout Seen seen) {
     if (seen.hit.t < 0.0 || !looks_on()) {
         return false;

@@ -14,7 +14,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 layout(location = 0) rayPayloadInEXT Seen seen;
 hitAttributeEXT vec2 barycentrics;
 
-// The row to read from a texture of this size.
+// The lookups in a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     if (FOOTPRINT == FOOTPRINT_POINT) {
         return Row(vec2(0.0), 1, 0.0);

@@ -63,7 +63,7 @@ Split of_sheet(Split side) {
     return Split(2.0 * side.reflected / all, side.through / all);
 }
 
-// Where a ray goes on that is not totally reflected. Along the surface index·direction stays as it is, and
+// The direction of a refracted ray. Along the surface index·direction does not change, and
 // along the normal -q becomes -p.
 vec3 refracted(vec3 direction, vec3 normal, float from, float to) {
     float q = from * dot(-direction, normal);

@@ -33,13 +33,13 @@ struct HeightfieldHit {
     uint steps;
 };
 
-// Where a wave of length 1 stands: -1/2 to 1/2. At the end, where rounding decides, S is 0 from both
+// The phase of a wave of length 1, from -1/2 to 1/2. At the ends, where rounding decides, S is 0 from both
 // sides, with the same slope.
 float phase(float u) {
     return u - floor(u + 0.5);
 }
 
-// A wave of length 1 and height 1 made of two parabolas: products and sums alone, which the CPU has, too.
+// A wave of length 1 and height 1 made of two parabolas, with only products and sums, as on the CPU.
 float wave(float u) {
     precise float v = phase(u);
     precise float height = 8.0 * v * (1.0 - 2.0 * abs(v));
@@ -120,7 +120,7 @@ float falling(HeightfieldShape shape, vec3 d) {
     return shape.lipschitz * length(d.xz) - d.y;
 }
 
-// That step, with the end of the march above: nothing is lost, but much is found that is not there.
+// The relaxed march with that step: it loses nothing, but finds many hits that are not there.
 HeightfieldHit heightfield_lipschitz(HeightfieldShape shape, vec3 o, vec3 d, float tmin, float tmax) {
     float fall = falling(shape, d);
     float t = tmin;

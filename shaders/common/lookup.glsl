@@ -5,8 +5,8 @@
 // As many lookups as one takes along a footprint.
 const float MOST = 16.0;
 
-// The level whose texels are so many texels of level 0 wide. What is no number gives level 0: no comparison with it
-// holds.
+// The level whose texels are this many texels of level 0 wide. NaN gives level 0, because every comparison with it
+// is false.
 float level_of(float texels) {
     return texels > 1.0 ? log2(min(texels, 1e9)) : 0.0;
 }
@@ -37,9 +37,9 @@ Row row_of(vec2 a, vec2 b, vec2 size) {
     float longer = is_a ? length_a : length_b;
     float shorter = is_a ? length_b : length_a;
     float count = 1.0;
-    // A NaN or infinite length gets a single lookup.
+    // NaN and infinity get one lookup.
     if (longer > 1.0 && longer < 1e9) {
-        // Not max(), which may hand on what is no number.
+        // Not max(), which may return a NaN.
         float wide = shorter > 1.0 ? shorter : 1.0;
         // A tenth of a lookup is not worth a whole one: lookups may lie that much farther apart.
         count = clamp(ceil(longer / wide - 0.1), 1.0, MOST);

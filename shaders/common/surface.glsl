@@ -8,14 +8,14 @@ float largest(vec3 v) {
 }
 
 // ANCHOR: polish
-// What part of the light goes through the polish, from outside or from below, without what is lost head on.
+// The part of the light that passes the polish, from outside or from below, relative to a head-on ray.
 float through(float cosine) {
     float grazing = 1.0 - cosine;
     return 1.0 - grazing * grazing * grazing * grazing * grazing;
 }
 
 // The colour that scatters light from a direction to the eye, both given by their cosines to the normal.
-// Below polish it is weaker, the lower light or eye stands. It is the same if light and eye change places.
+// Below polish it is weaker, the lower light or eye are. It is the same if light and eye change places.
 // The sum over all directions is `color` times the light that the mirror does not reflect.
 vec3 scattered(MaterialRecord material, vec3 color, float to_eye, float to_light) {
     vec3 left = color * (1.0 - material.specular);
@@ -31,8 +31,8 @@ float kept_of_highlight(float shininess) {
 }
 
 // ANCHOR: cosine
-// A direction above a surface: one is as likely as its cosine to the normal. It stands above a point that is
-// uniform on the unit disk (Malley's method).
+// A random direction above a surface, with a density proportional to its cosine to the normal: a uniform point
+// of the unit disk, lifted onto the hemisphere (Malley's method).
 vec3 cosine_direction(vec2 u, vec3 normal) {
     float radius = sqrt(u.x);
     // From -pi to pi: beyond, Vulkan says nothing of a sine's error.
@@ -47,7 +47,7 @@ vec3 cosine_direction(vec2 u, vec3 normal) {
     return normalize(local.x * right + local.y * up + local.z * normal);
 }
 
-// Interpolated normals may send a direction into the triangle: it comes out again, mirrored at the triangle.
+// Interpolated normals may send a direction into the triangle; such a direction is mirrored at the triangle.
 vec3 kept_above(vec3 direction, vec3 face) {
     return normalize(direction - 2.0 * min(dot(direction, face), 0.0) * face);
 }

@@ -42,7 +42,7 @@ bool roots_textbook(float a, float b, float c, out vec2 t) {
     return discriminant >= 0.0 && (a != 0.0 || b != 0.0);
 }
 
-// Three quadratics as they stand: the body's and those of both ends. A root counts where its point lies on
+// Three quadratics, just as written: the body's and those of both ends. A root counts if its point is on
 // that part.
 bool swept_textbook(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, out Root first) {
     precise vec3 u = b - a;
@@ -89,8 +89,8 @@ float largest(vec3 v) {
 }
 
 // ANCHOR: foot
-// A line as seen from a point: the foot of the perpendicular onto it, and where it lies. The second step takes
-// back what rounding left of the first, so that nothing that follows knows how far away the ray began.
+// A line relative to a point: the foot of the perpendicular onto it, and its t. The second step removes the
+// rounding error of the first, so that nothing later depends on how far away the ray began.
 struct Foot {
     vec3 p;
     float t;
