@@ -33,10 +33,10 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Show what a chapter changes in another, such as `diff 02 03`; coloured unless piped or NO_COLOR
+    /// Show the differences between two chapters, such as `diff 02 03`; coloured unless piped or NO_COLOR
     ///
-    /// Its code and its shaders, unless a part is named. Of a chapter and one that builds on it, the other
-    /// is the newer, whichever is named first.
+    /// Code and shaders, unless a part is named. If one of the two builds on the other, it counts as the newer,
+    /// whichever is named first.
     Diff {
         /// The older chapter: its number or name
         old: String,
@@ -76,27 +76,27 @@ pub enum Command {
         #[arg(long, value_name = "URL")]
         git: Option<String>,
         /// Compile everything for this crate alone; without it, the crate uses what the book has compiled, and its
-        /// first build takes a minute in place of many
+        /// first build takes a minute instead of many
         #[arg(long)]
         apart: bool,
     },
-    /// Fill in what pages show of the code: snippets, diffs, tables, gallery, contents
+    /// Bring the generated parts of pages up to date: snippets, diffs, tables, gallery, contents
     Sync {
         /// Also render the pictures of these names, or all that are out of date
         #[arg(long, value_name = "NAME", num_args = 0..)]
         pictures: Option<Vec<String>>,
     },
-    /// Run the commands that gave the values of these pages or measurements, such as `05` or
-    /// `05_shadow_miss/acne`, or of all that are missing or were made by another command, and fill the values in
+    /// Measure the values of these pages or measurements again, such as `05` or `05_shadow_miss/acne`, and fill them
+    /// in; without a name, all values that are missing or whose command has changed
     Measure {
         /// Chapters, pages, measurements
         names: Vec<String>,
     },
     /// Run the commands of all pictures, mistakes and values again, and compare; exit code 1 if anything differs.
-    /// About an hour on two cores; one that was interrupted goes on where it stopped
+    /// About an hour on two cores; an interrupted run continues where it stopped
     ///
-    /// A picture must be the same where device and driver are those that made it; elsewhere it may differ as far as
-    /// rounding makes it. Values are compared on the stored device and driver, and otherwise printed. Times are left alone.
+    /// A picture must be the same on the device and driver that made it; elsewhere it may differ by rounding. Values
+    /// are compared on the stored device and driver, and only printed on others. Times are not compared.
     Verify {
         /// Chapters, pages, pictures, mistakes, measurements [default: all]
         names: Vec<String>,
@@ -105,34 +105,34 @@ pub enum Command {
         #[arg(long, conflicts_with = "names")]
         changed: bool,
     },
-    /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
+    /// Run every chapter on this device, compare it with its golden picture, and write a report card; exit code
     /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer
     Survey {
         /// Use this device: a number of --list-devices or a part of its name
         #[arg(long, value_name = "N|NAME")]
         device: Option<String>,
-        /// Put the card there, as Markdown and as JSON
+        /// Folder for the card, as Markdown and as JSON
         #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
         out: PathBuf,
-        /// Stop a program after so many whole seconds, 1 to 86400
+        /// Stop a program after this many whole seconds, 1 to 86400
         #[arg(long, value_name = "SECONDS", default_value_t = 180, value_parser = limit,
             allow_hyphen_values = true)]
         limit: u64,
-        /// Find out besides what the device's own traversal computes: half a minute on a software driver
+        /// Also measure what the device's own traversal computes: half a minute on a software driver
         #[arg(long)]
         atlas: bool,
-        /// With --atlas: the driver's own arithmetic, or the worst-case rounding allowed by Vulkan; then the card has
-        /// the atlas alone
+        /// With --atlas: the driver's own arithmetic, or the worst-case rounding allowed by Vulkan; the card then has
+        /// only the atlas
         #[arg(long, value_name = "MODE", value_enum, default_value = "driver", requires = "atlas")]
         arithmetic: Arithmetic,
         /// Only print what would be run
         #[arg(long)]
         list: bool,
     },
-    /// Run hard cases and random rays of a fresh seed by the textbook's formulas and by ours, on this device; exit code
-    /// 1 if ours is wrong once. About half a minute on a software driver
+    /// Run hard cases and random rays with the textbook's formulas and with ours, on this device; exit code
+    /// 1 if ours is ever wrong. About half a minute on a software driver
     Hard(HardArguments),
-    /// Measure what accuracy costs on this device: the table of docs/prices.md with a column of yours, in about a minute
+    /// Measure what accuracy costs on this device: the table of docs/prices.md with a column for yours, in a minute
     Prices(PricesArguments),
     /// Make a copy of the shaders, or of all code, with a classic mistake in it, and say how to run it
     Mistake {
@@ -141,16 +141,16 @@ pub enum Command {
         /// List the mistakes
         #[arg(long)]
         list: bool,
-        /// Put the copy there [default: target/mistakes/NAME]
+        /// Folder for the copy [default: target/mistakes/NAME]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
-        /// Run it and hold it to what its file claims; without a name, every one that is in shaders alone
+        /// Run it and compare with the claims of its file; without a name, every mistake that changes only shaders
         #[arg(long)]
         check: bool,
     },
     /// Do an exercise of a page: `exercise 05.2` sets it up and checks it on each save until it is solved
     Exercise(ExerciseArguments),
-    /// Add the files that --save has written: OUT is the picture (.png or .exr), or such a file again
+    /// Merge files that --save has written: OUT is the picture (.png or .exr), or such a file again
     Merge {
         /// The picture or file to write
         out: PathBuf,
@@ -161,17 +161,17 @@ pub enum Command {
         #[arg(long, value_name = "A..B", value_parser = instruments::sums::range)]
         samples: Option<Range<u32>>,
     },
-    /// Make a website of the book with mdBook, to be read from a file or from any folder of a server
+    /// Build the book's website with mdBook, to be read from files or from any folder of a server
     Book {
-        /// Put it there: a folder that this command made before, or that is empty or new [default: book]
+        /// Folder for it, which this command made before, or which is empty or new [default: book]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
-    /// Run the tests that plain `cargo test` leaves out, a test program after the other, with their times
+    /// Run the tests that plain `cargo test` skips, one test program after the other, with their times
     Nightly {
         /// Test programs, such as `samples`; all of them if none is named
         names: Vec<String>,
-        /// Only list the tests, each with why it is left out
+        /// Only list the tests, each with the reason for skipping it
         #[arg(long)]
         list: bool,
     },

@@ -55,7 +55,7 @@ fn run() -> Result<()> {
         (options.compare.compare.is_some(), "has no controls to compare"),
         (
             options.compile_for.compile_for.is_some(),
-            "makes its pipeline by itself: --compile-for is for 02 and on",
+            "makes its own pipeline: --compile-for works from 02 on",
         ),
         (
             options.sums.samples.is_some(),

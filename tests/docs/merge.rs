@@ -45,8 +45,8 @@ fn what_cannot_be_merged_is_refused_by_name_and_nothing_is_written() {
     let [a, b, text, out, gone, jpeg] =
         ["a.sums", "b.sums", "text", "out.sums", "gone.sums", "out.jpg"].map(file);
     for (arguments, code, words) in [
-        (&[&out, &a, &b][..], 1, "samples 3..4 are in "),
-        (&[&out, &a, &a], 1, "a.sums, too"),
+        (&[&out, &a, &b][..], 1, "samples 3..4 are in both "),
+        (&[&out, &a, &a], 1, " are in both "),
         (&[&a, &b], 2, "a.sums' exists: name it among the files, too"),
         (&[&out, &a, &text], 1, "text: was not written by --save"),
         (&[&out, &gone], 1, "gone.sums: there is no such file"),

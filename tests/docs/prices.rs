@@ -13,10 +13,10 @@ fn prices(arguments: &[&str]) -> Outcome {
 #[test]
 fn a_row_has_what_is_stored_and_what_is_measured_here() {
     program("26_leaving_a_surface");
-    let outcome = prices(&["--only", "by no step", "--rounds", "3"]);
+    let outcome = prices(&["--only", "against no step", "--rounds", "3"]);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
     assert!(outcome.out.contains("No GPU with ray tracing hardware has been measured yet"));
-    let row = outcome.out.lines().find(|line| line.contains("by no step")).expect("a row");
+    let row = outcome.out.lines().find(|line| line.contains("against no step")).expect("a row");
     let cells: Vec<&str> = row.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
     let [_, software, h200, yours, middle] = cells[..] else { panic!("{row}") };
     let number = |cell: &str| -> f64 { cell.parse().expect("a number") };
@@ -28,7 +28,7 @@ fn a_row_has_what_is_stored_and_what_is_measured_here() {
 #[test]
 fn wrong_arguments_are_one_line() {
     for (arguments, part) in [
-        (&["--only", "no such row"][..], "no row has 'no such row'; there is: a ray starts"),
+        (&["--only", "no such row"][..], "no row has 'no such row'; there is: rays that start"),
         (&["--rounds", "2"], "rounds are a whole number from 3 to 1000"),
         (&["--only", ""], "a value is required for '--only <WORD>'"),
         (&["--picture", "a.jpg"], "the picture is a .png file"),

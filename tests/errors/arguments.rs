@@ -25,9 +25,9 @@ fn options() {
         (&["--frames", "-1"], "invalid value '-1' for '--frames <N>'"),
         (
             &["--save", "a.sums"],
-            "--save a.sums: it keeps sums of samples: say which, --samples A..B; a picture is written by --out FILE",
+            "--save a.sums stores sums of samples: add --samples A..B; --out FILE writes a picture",
         ),
-        (&["--save", "a.png"], "say which, --samples A..B; a picture is written by --out FILE"),
+        (&["--save", "a.png"], "add --samples A..B; --out FILE writes a picture"),
         (&["--samples", "-1..4"], "invalid value '-1..4' for '--samples <A..B>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
         (&["--scene", ""], "a value is required for '--scene <FILE>'"),
@@ -78,7 +78,7 @@ fn frames_that_cannot_be_animated() {
         refused(arguments, 2, &[words]);
     }
     for (name, arguments, words) in [
-        ("01_foundation", &[][..], "this program plays no frames"),
+        ("01_foundation", &[][..], "this program has no animation"),
         (
             "14_animation",
             &["--compare", "flag=rebuilt|updated"],
@@ -103,7 +103,7 @@ fn frames_that_cannot_be_animated() {
 #[test]
 fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
     let (code, line) = run::refused("01_foundation", &["--compile-for", "navi31"]);
-    assert!(code == 2 && line.contains("--compile-for is for 02 and on"), "{line}");
+    assert!(code == 2 && line.contains("--compile-for works from 02 on"), "{line}");
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn controls() {
 #[test]
 fn comparisons() {
     for (comparison, words) in [
-        ("bogus", "--compare takes a control and its values, as NAME=A|B; not 'bogus'"),
+        ("bogus", "--compare needs a control and its values, as NAME=A|B, not 'bogus'"),
         ("show=picture", "NAME=A|B"),
         ("bogus=1|2", "no control 'bogus'; there is show"),
         ("show=picture|nothing", "control 'show' cannot be 'nothing'"),

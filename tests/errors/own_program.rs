@@ -132,7 +132,7 @@ fn a_ray_asks_for_records_that_are_there_and_of_the_right_kind() {
 
 #[test]
 fn a_picture_that_is_written_nowhere_is_a_warning() {
-    let line = "warning: the picture is written nowhere: --out FILE.png or FILE.exr names a file";
+    let line = "warning: the picture is not written: add --out FILE.png or --out FILE.exr";
     for program in ["my_tracer", "02_basic"] {
         assert_eq!(warning(&small(program).output().expect("it starts")), line);
     }

@@ -69,7 +69,7 @@ fn a_driver_that_tells_no_figures_of_its_compiler_is_a_warning() {
     let output = command.output().expect("it starts");
     assert!(output.status.success(), "{}", said(&output));
     let line = format!(
-        "warning: {NAME} tells no figures of its compiler: A host memory allocation has failed"
+        "warning: {NAME} reports no compiler statistics: A host memory allocation has failed"
     );
     assert_eq!(said(&output).trim(), line);
 }

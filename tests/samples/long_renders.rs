@@ -152,7 +152,7 @@ fn a_task_that_is_asked_to_stop_saves_what_it_has() {
         assert_eq!(output.status.code(), Some(3), "{line}");
         let done = count(&parts.path("part"));
         assert!(line.starts_with("stopped: '") && line.lines().count() == 1, "{line}");
-        assert!(line.contains(&format!("keeps samples 0..{done};")), "{line}");
+        assert!(line.contains(&format!("has samples 0..{done};")), "{line}");
         parts.done(&format!("0..{}", done + 1), "part");
         assert_eq!(fs::read(parts.path("part")).unwrap(), parts.whole(done as u32 + 1));
     }
@@ -378,7 +378,7 @@ fn what_does_not_fit_is_refused_by_name() {
     let unordered = with(&["--size", "24x16", "--unordered"]);
     refused(&unordered, 1, &["--unordered is false in it and true here"]);
     let lost = ["--headless", "--samples", "0..4"];
-    refused(&lost, 2, &["--samples keeps nothing: name a file for the picture, --out, or for the"]);
+    refused(&lost, 2, &["--samples would store nothing: add --out for the picture or --save"]);
     // Not even a file of the same command is written over.
     let again = ["--size", "24x16", "--samples", "0..2", "--save", name];
     refused(&again, 1, &["exists: --resume '", "part' continues it"]);
@@ -401,23 +401,23 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(
         &["--samples", "0..4", "--save", "-"],
         2,
-        &["--save -: sums of samples are no picture"],
+        &["--save -: sums of samples are not a picture"],
     );
     let picture = ["--size", "24x16", "--samples", "0..2", "--save", text.to_str().unwrap()];
     refused(&picture, 1, &["text' exists and was not written by --save: choose another name"]);
     let out = ["--samples", "0..4", "--resume", name, "--save", name, "--report", name];
     refused(&out, 2, &["--resume and --report both name '"]);
     let picture = ["--samples", "0..4", "--save", "part.PNG"];
-    refused(&picture, 2, &["--save part.PNG: sums of samples are no picture"]);
+    refused(&picture, 2, &["--save part.PNG: sums of samples are not a picture"]);
     refused(&["--samples", "0..4", "--frames", "4"], 2, &["cannot be used with"]);
     let off = [&kept[..], &["--set", "accumulate=off"]].concat();
     refused(
         &off,
         2,
-        &["04_jitter_camera takes no --samples with these values of --set: each of its frames is"],
+        &["04_jitter_camera has no --samples with these values of --set: each of its frames is"],
     );
     let (code, line) = run::refused("02_basic", &kept);
-    let said = "02_basic takes no --samples: each of its frames is a picture of its own, not a sample of \
+    let said = "02_basic has no --samples: each of its frames is a picture by itself, not a sample of \
                 one; docs/long-renders.md names the chapters that gather samples";
     assert!(code == 2 && line.contains(said), "{line}");
 }

@@ -66,7 +66,7 @@ impl Instruments {
             self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
         } else if report.report.is_some() {
             // One that goes to standard output is no file, which a window refuses itself.
-            return Err(UsageError("--report goes with --headless".to_owned()).into());
+            return Err(UsageError("--report needs --headless".to_owned()).into());
         }
         Ok(true)
     }
@@ -83,16 +83,16 @@ impl Instruments {
 /// If a file cannot be written, or is named twice; if a pixel's rays or long renders are requested.
 pub fn check_files(args: &Args, options: &Options) -> Result<()> {
     if options.pixel.pixel.is_some() {
-        let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
+        let why = "this program makes its own pipeline: --pixel works from 02 on";
         return Err(UsageError(why.to_owned()).into());
     }
     if args.list_records {
-        let why = "this program makes its table by itself: --list-records is for 02 and on";
+        let why = "this program makes its own table: --list-records works from 02 on";
         return Err(UsageError(why.to_owned()).into());
     }
     if args.animate {
         let why =
-            "this program plays no frames: --animate is for chapters that do, such as 14_animation";
+            "this program has no animation: use --animate with one that does, such as 14_animation";
         return Err(UsageError(why.to_owned()).into());
     }
     app::files::check(args)?;

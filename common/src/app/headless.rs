@@ -56,7 +56,7 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
     run.close()?;
     if args.out.is_none() && args.files.outputs.is_empty() && !args.validate && !hooks.has_result()
     {
-        let line = "the picture is written nowhere: --out FILE.png or FILE.exr names a file";
+        let line = "the picture is not written: add --out FILE.png or --out FILE.exr";
         output::warn(&[line.to_owned()]);
     }
     Ok(())

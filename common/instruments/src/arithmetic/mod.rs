@@ -90,7 +90,7 @@ impl Arithmetic {
             }
         };
         let rewritten = rewrite::worst(&words, seed).with_context(|| {
-            format!("shader '{}' cannot be had in the worst arithmetic", stage.path)
+            format!("cannot rewrite shader '{}' for the worst arithmetic", stage.path)
         })?;
         // The driver must not rearrange the emulated arithmetic itself.
         contraction::without(&rewritten)
@@ -115,8 +115,9 @@ impl DriverShim for Arithmetic {
             return stage.words();
         }
         let plain = StageText { as_written: false, ..stage.clone() }.words()?;
-        let text = Self::prepared(&stage.text, &plain)
-            .with_context(|| format!("shader '{}' is not for the worst arithmetic", stage.path))?;
+        let text = Self::prepared(&stage.text, &plain).with_context(|| {
+            format!("cannot prepare shader '{}' for the worst arithmetic", stage.path)
+        })?;
         let words = StageText { text, ..stage.clone() }.words()?;
         self.applied(stage, words)
     }

@@ -96,7 +96,7 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), UsageError> {
     match parts.map(|(name, list)| (name.trim().to_owned(), values(list))) {
         Some((name, values)) if !name.is_empty() && Vec::len(&values) > 1 => Ok((name, values)),
         _ => Err(UsageError(format!(
-            "--compare takes a control and its values, as NAME=A|B; not '{text}'"
+            "--compare needs a control and its values, as NAME=A|B, not '{text}'"
         ))),
     }
 }

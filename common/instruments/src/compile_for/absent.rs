@@ -51,7 +51,8 @@ pub fn compile(
 }
 
 fn one(gpu: &Gpu, desc: &PipelineDesc) -> Result<Vec<Executable>> {
-    let properties = gpu.executable_properties.as_ref().context("its driver tells no figures")?;
+    let properties =
+        gpu.executable_properties.as_ref().context("its driver reports no statistics")?;
     let textures = desc.textures.map(|count| TextureTable::layout(gpu, count)).transpose()?;
     let (set, layout) = desc.layouts(gpu, textures)?;
     let mut desc = desc.clone();

@@ -131,7 +131,7 @@ pub fn programs(family: Family, descs: &[&PipelineDesc]) -> Result<Vec<Vec<Compi
         let question = serde_json::to_vec(&(family, descs))?;
         let answer = ask(family, &manifest, &question)
             .with_context(|| format!("cannot compile for {family}"))?;
-        ensure!(answer.pipelines.len() == all.len(), "{family} has answered about too few");
+        ensure!(answer.pipelines.len() == all.len(), "{family}: too few pipelines were compiled");
         for ((rows, programs), desc) in all.iter_mut().zip(answer.pipelines).zip(descs) {
             for program in &programs {
                 let name = desc.name.clone();
@@ -186,7 +186,7 @@ fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
             answer => answer?,
         };
         if let Some(answer) =
-            serde_json::from_slice(&answer).context("the child's answer is none")?
+            serde_json::from_slice(&answer).context("the child process returned no result")?
         {
             return Ok(answer);
         }
@@ -240,7 +240,7 @@ impl CompiledFor {
     ) -> Result<Self> {
         let figure = |name: &str| {
             let value = program.figure(name).map(|value| value as u64);
-            value.with_context(|| format!("{compiler} does not tell the figure '{name}'"))
+            value.with_context(|| format!("{compiler} does not report '{name}'"))
         };
         Ok(Self {
             family,

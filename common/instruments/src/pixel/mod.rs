@@ -157,7 +157,7 @@ impl Probe {
         let printing = known.iter().find(|known| known.prints);
         if let (Some(shader), true) = (printing, gpu.vulkan.messenger.is_none()) {
             bail!(
-                "PRINT in '{}' takes VK_LAYER_KHRONOS_validation, which is not installed: run ./setup, or \
+                "PRINT in '{}' needs VK_LAYER_KHRONOS_validation, which is not installed: run ./setup, or \
                  install your system's Vulkan validation layers",
                 shader.path
             );
@@ -165,7 +165,7 @@ impl Probe {
         match (rays, printed.is_empty(), printing) {
             (0, true, _) => bail!(
                 "no shader called traceRayEXT or printed anything for pixel {x},{y}, and the rays of a rayQueryEXT \
-                 are not recorded: write PRINT(\"t = %f\", t); where it comes by"
+                 are not recorded: write PRINT(\"t = %f\", t); where the shader runs"
             ),
             (_, true, Some(shader)) => {
                 let _ = writeln!(

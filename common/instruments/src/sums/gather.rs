@@ -59,7 +59,7 @@ impl Options {
         if let (Some(path), None) = (&self.save, &self.samples) {
             let path = path.display();
             return Err(UsageError(format!(
-                "--save {path}: it keeps sums of samples: say which, --samples A..B; a picture is written by --out FILE"
+                "--save {path} stores sums of samples: add --samples A..B; --out FILE writes a picture"
             )));
         }
         let others = ["png", "exr", "jpg", "jpeg", "tif", "tiff", "json"];
@@ -67,14 +67,14 @@ impl Options {
             let ends = |end: &&str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
             if others.iter().any(ends) || path.as_os_str() == "-" {
                 return Err(UsageError(format!(
-                    "--save {}: sums of samples are no picture; name the file .sums, and the picture by --out",
+                    "--save {}: sums of samples are not a picture: name the file .sums; --out writes a picture",
                     path.display()
                 )));
             }
         }
         if self.samples.is_some() && self.save.is_none() && !is_kept {
             return Err(UsageError(
-                "--samples keeps nothing: name a file for the picture, --out, or for the sums, --save"
+                "--samples would store nothing: add --out for the picture or --save for the sums"
                     .to_owned(),
             ));
         }
@@ -147,11 +147,9 @@ impl Gather {
         if !run.sample.gathers() {
             // All chapters that support it do so by default: without settings, this is not one of them.
             let when = if args.sets.is_empty() { "" } else { " with these values of --set" };
-            let why = "each of its frames is a picture of its own, not a sample of one";
+            let why = "each of its frames is a picture by itself, not a sample of one";
             let which = "docs/long-renders.md names the chapters that gather samples";
-            return Err(
-                UsageError(format!("{name} takes no --samples{when}: {why}; {which}")).into()
-            );
+            return Err(UsageError(format!("{name} has no --samples{when}: {why}; {which}")).into());
         }
         let interrupt = options.save.as_ref().map(|_| Arc::new(Interrupt::listen()));
         let origin = origin(run)?;
@@ -219,7 +217,7 @@ impl Gather {
             Ok(())
         })?;
         let added = self.header.samples.add(&(index..index + 1).into());
-        added.map_err(|both| anyhow!("samples {both} are there already"))?;
+        added.map_err(|both| anyhow!("samples {both} are already in the sums"))?;
         let stop = self.interrupt.as_ref().is_some_and(|interrupt| interrupt.came());
         let Some((file, every)) = &self.save else { return Ok(()) };
         if stop || self.saved.elapsed() >= *every {
@@ -227,10 +225,8 @@ impl Gather {
             self.saved = Instant::now();
             if stop {
                 let name = shown(file);
-                let hint = format!("--resume '{name}' goes on");
-                return Err(
-                    Stopped(format!("stopped: '{name}' keeps samples {kept}; {hint}")).into()
-                );
+                let hint = format!("--resume '{name}' continues");
+                return Err(Stopped(format!("stopped: '{name}' has samples {kept}; {hint}")).into());
             }
         }
         Ok(())
@@ -259,7 +255,7 @@ impl Gather {
             let kept = sums.save_unless_behind(file)?;
             ensure!(
                 kept == sums.header.samples,
-                "'{}' has samples {kept} of another run, and stays as it is: this run's are not saved",
+                "'{}' has samples {kept} of another run and is left unchanged; this run's are not saved",
                 shown(file)
             );
         }

@@ -119,17 +119,14 @@ impl Header {
         let pixels = u64::from(width) * u64::from(height);
         ensure!(
             (1..=PIXELS).contains(&pixels),
-            "{name}: {width}x{height} is too large or nothing: at most {PIXELS} pixels are read"
+            "{name}: {width}x{height} is empty or too large: at most {PIXELS} pixels are read"
         );
         let samples = header.samples.count();
         ensure!(samples > 0, damaged(name, "it has no samples"));
         let Spoiled { count, first } = header.spoiled;
         let counts = count <= samples.saturating_mul(pixels) && (count > 0) == first.is_some();
         let is_inside = first.is_none_or(|first| u64::from(first) < pixels);
-        ensure!(
-            counts && is_inside,
-            damaged(name, "it tells of spoiled samples that it cannot have")
-        );
+        ensure!(counts && is_inside, damaged(name, "its number of spoiled samples is impossible"));
         Ok(header)
     }
 }
@@ -308,7 +305,7 @@ pub fn merge(files: &[&Path]) -> Result<Sums> {
         let is_new = sums.header.samples.overlap(&other.header.samples).count() == 0;
         for (before, samples) in known.iter().filter(|_| !is_new) {
             let both = samples.overlap(&other.header.samples);
-            ensure!(both.count() == 0, "samples {both} are in {before} and in {name}, too");
+            ensure!(both.count() == 0, "samples {both} are in both {before} and {name}");
         }
         sums.add(&other).map_err(|what| anyhow!("{name}: {what}"))?;
         known.push((name, other.header.samples));

@@ -114,7 +114,7 @@ impl TryFrom<Vec<[u32; 2]>> for SampleSet {
         for [start, end] in pairs {
             let after = samples.ranges.last().map_or(0, |last| last.end);
             if start >= end || start < after {
-                return Err(format!("{start}..{end} is no range of samples after {after}"));
+                return Err(format!("{start}..{end} is not a range of samples after {after}"));
             }
             samples.push(start..end);
         }

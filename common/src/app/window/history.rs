@@ -61,7 +61,7 @@ impl History {
             font,
             style::DIM,
         );
-        response.on_hover_text("GPU time of a full picture; dim: foretold from a smaller one");
+        response.on_hover_text("GPU time of a full picture; dim: estimated from a smaller one");
     }
 }
 

@@ -52,7 +52,7 @@ enum Wake {
 /// On wrong arguments ([`UsageError`]), without a display, if anything fails, or if validation reported a message.
 pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> {
     if args.out.is_some() || !args.files.outputs.is_empty() {
-        let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
+        let hint = "--out and --report need --headless; in the window, F2 writes the picture";
         return Err(UsageError(hint.to_owned()).into());
     }
     let (width, height) = (args.size.width, args.size.height);

@@ -323,7 +323,7 @@ impl<'a> PipelineBuilder<'a> {
         if let Some(device) = &gpu.executable_properties {
             // The pipeline is usable even if the driver reports no statistics.
             let executables = Executable::all(device, pipeline.handle).unwrap_or_else(|error| {
-                let line = format!("{} tells no figures of its compiler: {error}", gpu.name);
+                let line = format!("{} reports no compiler statistics: {error}", gpu.name);
                 gpu.warn(&desc.name, vec![line]);
                 Vec::new()
             });
