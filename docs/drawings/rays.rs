@@ -220,7 +220,7 @@ pub fn acne_and_leak() -> String {
         ),
         (
             296.0,
-            "above the bound",
+            "just above",
             "No rounding puts the start",
             "below the surface.",
             -10.0,
@@ -259,7 +259,7 @@ pub fn acne_and_leak() -> String {
         let to_light = DVec2::new(0.62, -0.5);
         let end = match title {
             "too low: acne" => start + 44.0 * to_light,
-            "above the bound" => start + 61.0 * to_light,
+            "just above" => start + 61.0 * to_light,
             _ => start + 150.0 * to_light,
         };
         s.arrow(&[point(start), point(end)]);

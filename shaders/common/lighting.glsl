@@ -18,7 +18,7 @@ RayOrigin shadow_start(Hit hit) {
 }
 // ANCHOR_END: start
 
-// 1 if light arrives from a direction, else 0: it comes from t = `end` along `to_light`.
+// 1 if light arrives, else 0. The light is at t = `end` in the direction `to_light`.
 float visibility(RayOrigin start, vec3 to_light, float end) {
     // A light below the surface is hidden by the surface itself: that needs no ray.
     return dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end) ? 1.0 : 0.0;
