@@ -19,8 +19,8 @@ const uint STATE_UNKNOWN_OPAQUE = 3;
 // The distance outside a triangle at which a hit may still be looked up. The bound on each state covers it.
 const float SLACK = 1.0 / 16384.0;
 
-// The micro-triangle of a point whose weights of the three corners are `w`. Each step finds the part that
-// holds the point, and the point's weights within it. For any weights the result is below 4^level.
+// The number of the micro-triangle that contains a point. `w` are the weights of the three corners. Each turn finds
+// the part that contains the point, and the point's weights in it. For any weights, the number is below 4^level.
 uint micro_triangle(vec3 w, int level) {
     uint index = 0;
     for (int i = 0; i < level; i++) {
@@ -50,7 +50,7 @@ uint state_at(Micromap micromap, uint triangle, vec2 barycentrics) {
     if (micromap.level < 0 || !inside) {
         return STATE_UNKNOWN_OPAQUE;
     }
-    // Two bits a state, and at least a byte a triangle.
+    // Two bits per state, and at least a byte per triangle.
     uint first = triangle * max(2u << (2 * micromap.level), 8u);
     uint bit = first + 2 * micro_triangle(w, micromap.level);
     return micromap.states.at[bit >> 5] >> (bit & 31u) & 3u;

@@ -31,7 +31,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-// Traces a ray, and reports its hit.
+// The nearest hit of a ray, or the sky.
 Hit trace(vec3 origin, vec3 direction) {
     rayQueryEXT query;
     rayQueryInitializeEXT(

@@ -7,7 +7,7 @@ layout(location = 2) in vec2 barycentrics;
 
 layout(location = 0) out uvec4 seen;
 
-// The nearest surface of a pixel so far: the depth test decides whether it stays.
+// The surface that a pixel sees so far: the depth test decides whether it stays.
 void main() {
     seen = uvec4(instance, triangle, floatBitsToUint(barycentrics));
 }

@@ -33,13 +33,13 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
 }
 
 // ANCHOR: primary
-// What the rasteriser has seen in a pixel.
+// The surface that the rasteriser has drawn in a pixel.
 Seen by_raster(uvec2 pixel) {
     uvec4 texel = imageLoad(gbuffer, ivec2(pixel));
     return Seen(texel.x, texel.y, uintBitsToFloat(texel.zw));
 }
 
-// Finds the surface by a ray query, as in 16.
+// The surface that a ray query finds, as in 16.
 Seen by_ray(vec3 origin, vec3 direction) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, 0xff, origin, 0.0, direction, 1e30);

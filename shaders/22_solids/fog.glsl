@@ -19,8 +19,8 @@ float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
 
 // The length of a ray outside all solids, up to its end.
 //
-// Closed solids need no look: a ray that comes to one ends there, and a camera within one has another
-// pipeline. But a clip has no surface, and rays go in and out.
+// Closed solids need no test: a ray that arrives at one ends there, and a camera within one has another
+// pipeline. But a clip has no surface, so rays go in and out.
 float way_outside(vec3 o, vec3 d, float end) {
     if (FOG != FOG_OUTSIDE) {
         return end;

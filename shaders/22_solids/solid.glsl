@@ -59,7 +59,7 @@ vec2 in_ball(Ball ball, vec3 o, vec3 d) {
 }
 
 // ANCHOR: interval
-// Between which t a ray is in a convex part, and through which faces it comes and goes.
+// The interval of t where a ray is in a convex part, and the faces through which it enters and leaves.
 struct Interval {
     float enter;
     float leave;
@@ -67,7 +67,7 @@ struct Interval {
     uint leave_face;
 };
 
-// In all of the part's bounds: in from the last that is entered to the first that is left.
+// The interval inside all bounds of the part: from the last one entered to the first one left.
 Interval in_part(Part part, vec3 o, vec3 d) {
     Interval inside = Interval(-NOWHERE, NOWHERE, 0, 0);
     for (uint i = part.first_face; i < part.first_face + part.face_count; i++) {
@@ -91,8 +91,8 @@ Interval in_part(Part part, vec3 o, vec3 d) {
 }
 // ANCHOR_END: interval
 
-// True if the solid holds a point that lies in these of its parts: bit i is part i. The program is in
-// postfix order, and the bits of a number are its stack.
+// Tests whether the solid contains a point that is in these of its parts: bit i is part i. The program is in
+// postfix order, and its stack is the bits of a number.
 bool holds(SolidRecord solid, uint members) {
     uint stack = 0;
     for (uint i = solid.first_step; i < solid.first_step + solid.step_count; i++) {
@@ -199,12 +199,12 @@ struct Crossing {
     bool enters;
 };
 
-// The first t after tmin where the ray comes into the solid or leaves it.
+// The first t after tmin where the ray enters or leaves the solid.
 bool first_crossing(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax, out Crossing found) {
     follow(solid, o, d, tmin, tmax);
     Interval clip = in_clip(solid, o, d);
     for (float t = change_after(tmin); t <= tmax && t < NOWHERE; t = change_after(t)) {
-        // All that happens at one t happens at once: what counts is just before and just after.
+        // All changes at one t happen at once, so only the bits just before and just after it count.
         uint before = members_before(t);
         uint after = members_after(t);
         bool was_in = holds(solid, before);

@@ -17,12 +17,12 @@ void main() {
 #endif
     for (uint k = 1; k < push.repeat; k++) {
         Answer more = ask(push.queries.at[(i + k) % push.count], push.numbers);
-        // The sum is of no use but that nothing can be left out.
+        // The sum is not used, but it keeps the compiler from leaving a call out.
         answer.t += more.t;
         answer.hit += more.hit;
     }
     answer.offered = 1;
-    // Asked again, a ray keeps the device busy: no compiler knows what is never.
+    // A repeated ray only keeps the device busy. No answer is `never`, but a compiler cannot know that.
     if (asked < push.count || answer.t == push.never) {
         push.answers.at[i] = answer;
     }

@@ -3,11 +3,11 @@
 
 struct Hit {
     vec3 position;    // on the surface, in the world
-    float t;          // the distance along the ray; -1 if the ray met nothing
+    float t;          // the distance along the ray; -1 for a miss
     vec3 normal;      // the normal to shade with: unit, on the side that the ray came from
-    uint material;    // which material: push.scene.materials.at[material], or MATERIAL_PLANE or MATERIAL_GROUND
+    uint material;    // push.scene.materials.at[material], or MATERIAL_PLANE or MATERIAL_GROUND
     vec3 color;       // the material's colour, its texture already read; of a material with a pattern, the
-                      // place in the mesh's own space, by which raygen finds it; for a miss, the sky's
+                      // position in the mesh's own space, from which raygen computes it; for a miss, the sky's
 #ifdef DEPARTURES
     float offset;     // start a ray this far along `face`: it is above the surface
     vec3 face;        // the surface's own normal: unit, on the same side
@@ -16,16 +16,16 @@ struct Hit {
     vec3 terminator_offset;  // from the flat triangle to the round surface that its normals pretend
 #endif
 #ifdef EFFECT_GLASS
-    bool entering;    // whether the ray came from outside of the body
+    bool entering;    // the ray came from outside the body
 #endif
 #ifdef CHANCES
-    uint emitter;     // which emitter; or NO_EMITTER
+    uint emitter;     // number of the emitter, or NO_EMITTER
 #endif
 #ifdef CURVES
-    float curvature;  // by how much the normal turns in a unit of length
+    float curvature;  // turn of the normal per unit of length
 #endif
 #ifdef TOLD_CONES
-    vec2 cone;        // told to the shader: the ray's width and spread. Told by it, in x: how much lines cover
+    vec2 cone;        // in: the ray's width and spread. Out, in x: the part that lines cover
 #endif
 };                    // 44 to 92 bytes
 

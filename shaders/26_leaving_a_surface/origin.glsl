@@ -43,7 +43,7 @@ Departure departure(TriangleHit seen, InstanceRecord instance, Ray arriving) {
     from.to_mesh = mat3(seen.to_mesh);
     from.to_a = -within;
 
-    // Without an area there is no normal but the one that chapter 41 chose.
+    // A triangle without an area has no normal except the one that chapter 41 chose.
     vec3 up = cross(from.e1, from.e2);
     up = normalize(dot(up, up) > 1e-37 ? up : from.to_mesh * from.normal);
     // A normal comes into the world by the transposed matrix that takes points out of it.
@@ -82,7 +82,7 @@ RayOrigin start_integers(Departure from) {
     return RayOrigin(up_by_floats(from.reached, from.normal), 0.0);
 }
 
-// The same from the point in the triangle, which does not get worse with the way the last ray came.
+// The same from the point in the triangle, which does not get worse with the distance of the last ray.
 RayOrigin start_reprojected(Departure from) {
     return RayOrigin(up_by_floats(from.position, from.normal), 0.0);
 }

@@ -5,7 +5,7 @@
 const float MISSED = 3e38;
 
 // ANCHOR: ray
-// What the tests of boxes need of a ray, made once for each tree that it walks.
+// A ray prepared for the tests of boxes, once for each tree that it walks.
 struct Ray {
     vec3 origin;
     vec3 direction;
@@ -17,8 +17,8 @@ struct Ray {
 Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
     float farthest = max(max(abs(origin.x), abs(origin.y)), abs(origin.z)) + reach;
     float grown = BOXES == BOXES_BOUND ? growth * farthest : BOXES == BOXES_GUESS ? 1e-5 : 0.0;
-    // The walls are chosen by the sign, also of 0 and of -0. Vulkan leaves open what 1 / 0 gives, so that no
-    // component counts as less than this part of the largest.
+    // The walls are chosen by the sign, also that of 0 and -0. Vulkan does not define 1 / 0, so each component
+    // counts as at least this fraction of the largest.
     const float LEAST = 1.0 / (1 << 30) / (1 << 30);
     vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0)));
     vec3 size = abs(direction);

@@ -1,7 +1,7 @@
 // A tree of boxes, as samples/30_own_tree/tree.rs has it.
 
 // ANCHOR: node
-// A box, and what lies in it: a node, or some primitives.
+// A box and its contents: a node, or some primitives.
 struct Child {
     vec3 low;
     uint first;    // a node's index if count is 0, else the first primitive's position in the tree's order

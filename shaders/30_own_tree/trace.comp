@@ -18,7 +18,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     return walk(push.trees.at[0], origin, to_light, end, true).placed == NOTHING;
 }
 
-// Traces a ray, and reports its hit.
+// The nearest hit of a ray, or the sky.
 Hit trace(vec3 origin, vec3 direction, out Met met) {
     met = walk(push.trees.at[0], origin, direction, 1e30, false);
     Hit hit;

@@ -63,7 +63,7 @@ const uint KIND_SPHERE = 0;
 const uint KIND_BOX = 1;
 
 // ANCHOR: copies
-// Whether the shapes are read from copies that lie in the order of the build.
+// Reads the shapes from copies in the order of the build.
 layout(constant_id = 2) const bool COPIES = false;
 
 Sphere sphere_of(uint primitive) {

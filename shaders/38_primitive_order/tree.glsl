@@ -1,7 +1,7 @@
 // The tree that halves the list, walked for a count: what the device's own walk does cannot be asked.
 #include "common/box.glsl"
 
-// The number of boxes a ray is tested against, as far as `end`.
+// The number of boxes that a ray is tested against, up to `end`.
 uint boxes_tested(vec3 o, vec3 d, float end) {
     uint tested = 0;
     uint i = 0;
