@@ -6,7 +6,7 @@
 #include "common/show.glsl"
 
 // ANCHOR: record
-// What a piece has of its own, at its custom index.
+// The data of a piece, at its custom index.
 struct PieceRecord {
     mat3 inverse;         // of its matrix without the translation, made in 64 bits
     uint mesh;            // which of scene.instances

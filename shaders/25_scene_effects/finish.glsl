@@ -15,7 +15,7 @@ Finish finish_of(uint material) {
 #include "common/pattern.glsl"
 
 // ANCHOR: pattern
-// Whether this is the pattern of a kind. What no material in use has, the compiler drops.
+// True if the pattern is of a kind. The compiler drops kinds that no material in use has.
 bool is_of(uint pattern, uint kind) {
     return pattern == kind && (PATTERNS >> kind & 1) != 0;
 }

@@ -11,7 +11,7 @@
 #endif
 
 // ANCHOR: path
-// What a path must still be able to add to a pixel.
+// The least that a path must still be able to add to a pixel.
 const float MINIMUM_CONTRIBUTION = 1.0 / 512.0;
 
 struct Path {

@@ -42,7 +42,7 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
 }
 
 // ANCHOR: curvature
-// How far the normals of two corners turn apart, along the edge between them.
+// The angle between the normals of two corners, along the edge between them.
 float turn(vec3 edge, vec3 normals) {
     return dot(normals, edge) / max(dot(edge, edge), 1e-30);
 }

@@ -114,7 +114,7 @@ HeightfieldHit heightfield_secant(HeightfieldShape shape, vec3 o, vec3 d, float 
 }
 
 // ANCHOR: lipschitz
-// How fast a ray can come down on the ground, per unit of t: the ground rises by its steepest slope at
+// The speed at which a ray can come down on the ground, per unit of t: the ground rises by its steepest slope at
 // most, wherever the ray goes. A step that is no longer than height / falling jumps over nothing.
 float falling(HeightfieldShape shape, vec3 d) {
     return shape.lipschitz * length(d.xz) - d.y;
@@ -137,7 +137,7 @@ HeightfieldHit heightfield_lipschitz(HeightfieldShape shape, vec3 o, vec3 d, flo
 // ANCHOR_END: lipschitz
 
 // ANCHOR: crossing
-// How far ahead of t the ground cannot hide a hill. Within a step s, what rises above a straight line and
+// The step ahead of t within which the ground cannot hide a hill. Within a step s, what rises above a straight line and
 // sinks again does so by no more than bend·s²/8, if no second derivative along the ray is larger than
 // `bend`. Where that is less than the height's own rounding, 4u of where the ray is, it is no hill.
 float blind_step(float bend, vec3 o, vec3 d, float t) {
