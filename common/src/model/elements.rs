@@ -31,7 +31,7 @@ impl Check<'_> {
             }),
             _ => {
                 let what = || format!("v has {count} numbers; {FORMS}; the first 3 are taken");
-                self.warnings.add_word(Kind::Number, "v", statement, what);
+                self.warnings.add_word(Kind::Count, "v", statement, what);
             }
         }
         self.tally.positions += 1;
@@ -44,7 +44,7 @@ impl Check<'_> {
         match numbers("vt", rest, &mut values)? {
             0 => return Err("vt has no numbers; u, u v or u v w is right".to_owned()),
             1..=3 => {}
-            count => self.warnings.add_word(Kind::Number, "vt", statement, || {
+            count => self.warnings.add_word(Kind::Count, "vt", statement, || {
                 format!("vt has {count} numbers; u, u v or u v w is right; the first 2 are taken")
             }),
         }
@@ -57,7 +57,7 @@ impl Check<'_> {
             3 if values == [0.0; 3] => return Err("vn is 0 0 0, which has no direction".to_owned()),
             3 => {}
             count @ 0..3 => return Err(format!("vn has {count} numbers; x y z is right")),
-            count => self.warnings.add_word(Kind::Number, "vn", statement, || {
+            count => self.warnings.add_word(Kind::Count, "vn", statement, || {
                 format!("vn has {count} numbers; x y z is right; the first 3 are taken")
             }),
         }

@@ -31,8 +31,8 @@ impl Value<'_> {
     }
 
     /// Warns of a number in whose place another is taken.
-    fn correct(&mut self, what: &str) {
-        self.warnings.add_word(Kind::Number, self.keyword, self.statement, || what);
+    fn correct(&mut self, kind: Kind, what: &str) {
+        self.warnings.add_word(kind, self.keyword, self.statement, || what);
     }
 
     /// Three numbers from 0 to `most`, or one for all three.
@@ -60,7 +60,7 @@ impl Value<'_> {
             Ok(count) => {
                 let what =
                     format!("{keyword} has {count} numbers; a colour has 3, which are taken");
-                self.correct(&what);
+                self.correct(Kind::Count, &what);
                 Vec3::from(values)
             }
         };
@@ -78,7 +78,7 @@ impl Value<'_> {
             } else {
                 format!("{was}; a colour is from 0 to {most}: {is}")
             };
-            self.correct(&format!("{keyword} is {why} is taken"));
+            self.correct(Kind::Number, &format!("{keyword} is {why} is taken"));
         }
         Some(taken)
     }
@@ -98,19 +98,24 @@ impl Value<'_> {
             }
             Ok(1) => {}
             Ok(count) => {
-                self.correct(&format!("{keyword} has {count} numbers; the first is taken"));
+                self.correct(
+                    Kind::Count,
+                    &format!("{keyword} has {count} numbers; the first is taken"),
+                );
             }
         }
         let [value] = values;
         if value < 0.0 {
-            self.correct(&format!(
-                "{keyword} is {value}, and cannot be negative; {below} is taken"
-            ));
+            self.correct(
+                Kind::Number,
+                &format!("{keyword} is {value}, and cannot be negative; {below} is taken"),
+            );
             Some(below)
         } else if value > most {
-            self.correct(&format!(
-                "{keyword} is {value}, and cannot be more than {most}; {most} is taken"
-            ));
+            self.correct(
+                Kind::Number,
+                &format!("{keyword} is {value}, and cannot be more than {most}; {most} is taken"),
+            );
             Some(most)
         } else {
             Some(value)

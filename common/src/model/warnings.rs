@@ -31,8 +31,10 @@ pub(crate) enum Kind {
     Face,
     /// A statement of another format, or with a wrong value.
     Line,
-    /// A number for which another is taken; the message names it.
+    /// A number for which another is taken; the message names it, as in the next.
     Number,
+    /// More numbers than are taken.
+    Count,
     /// A material that would not be seen, for it is not opaque; the message says what is shown, as in the next two.
     Opacity,
     /// Glass that would not be seen.
@@ -57,7 +59,7 @@ impl Kind {
             Self::Crossing => Some("some triangles stand for it"),
             Self::Face => Some("the face is left out"),
             Self::Line => Some("the line is ignored"),
-            Self::Number | Self::Opacity | Self::Glass | Self::Black => None,
+            Self::Number | Self::Count | Self::Opacity | Self::Glass | Self::Black => None,
         }
     }
 }

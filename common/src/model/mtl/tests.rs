@@ -132,6 +132,8 @@ fn numbers_out_of_range_are_corrected() {
     let four = load_warned("newmtl a\nKd 0.8 0.2 0.1 1.0\nNs 10 20\nillum 2.0\n");
     assert_eq!((four.0.base_color, four.0.shininess), (Vec3::new(0.8, 0.2, 0.1), 10.0));
     assert_eq!(four.0.illumination, 2);
+    let bytes = load_warned("newmtl a\nKd 255 0 0 255\n");
+    assert_eq!((bytes.0.base_color, bytes.1.len()), (Vec3::X, 2));
     assert_eq!(
         four.1,
         [
