@@ -278,7 +278,7 @@ impl MaterialLibrary {
 }
 
 /// The name of a material. Some exporters omit it in both files; then the OBJ file's empty name refers to the MTL
-/// file's. tobj does not accept an empty name.
+/// file's.
 ///
 /// # Errors
 /// If it is too long.
