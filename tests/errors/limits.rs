@@ -69,7 +69,7 @@ fn png(side: u32, bits: u8, profile: usize) -> Vec<u8> {
 }
 
 fn with_texture(texture: &[u8]) -> TempDir {
-    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    let obj = format!("mtllib m.mtl\nusemtl a\nvt 0 0\n{TRIANGLE}f 1/1 2/1 3/1\n");
     let mtl: &[u8] = b"newmtl a\nmap_Kd t.png\n";
     folder(&[("model.obj", obj.as_bytes()), ("m.mtl", mtl), ("t.png", texture)])
 }

@@ -103,7 +103,7 @@ fn materials_that_are_wrong() {
         ("newmtl a\nNs -1.96\n", "m.mtl:2: Ns is -1.96, and cannot be negative; 0 is taken"),
         ("newmtl a\nTr 1\n", "m.mtl:2: nothing is seen of a material with d 0 or Tr 1"),
         ("newmtl a\nilum 1\n", "m.mtl:2: \"ilum\" is not a keyword of an MTL file"),
-        ("Kd 1 1 1\n", "m.mtl:1: Kd stands before the first newmtl"),
+        ("Kd 1 1 1\nnewmtl a\n", "m.mtl:1: Kd stands before the first newmtl"),
         (
             "newmtl a\nKd 0.5 0",
             "m.mtl:2: Kd has 2 numbers; a colour has 3, or 1 for a grey; the file ends in this line, perhaps cut off",

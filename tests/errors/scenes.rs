@@ -344,7 +344,7 @@ fn pieces_and_models_that_are_wrong() {
 
 /// A chair of two materials, and a table.
 const CHAIR: &str = "mtllib m.mtl\no chair\nusemtl wood\nv -1 0 0\nv 1 0 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n\
-    usemtl cloth\nv -1 2 0\nv 1 2 0\nf 4 3 6 5\no table\nusemtl wood\nv 3 0 0\nv 4 0 0\nv 4 1 0\nf 7 8 9\n";
+    usemtl cloth\nv -1 2 0\nv 1 2 0\nf 4 3 6 5\no table\nusemtl wood\nv -1 0 1\nv 0 0 1\nv 0 1 1\nf 7 8 9\n";
 const CHAIR_MTL: &str = "newmtl wood\nKd 0.6 0.3 0.1\nnewmtl cloth\nKd 0.1 0.1 0.8\n";
 
 #[test]
