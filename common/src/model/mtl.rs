@@ -18,58 +18,15 @@ const READ: [&str; 12] =
     ["newmtl", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
 
 /// The keywords of MTL, and of its extensions by other programs, that these samples do not use.
-const PASSED_OVER: [&str; 45] = [
-    "Ka",
-    "Km",
-    "sharpness",
-    "map_Ka",
-    "map_Ks",
-    "map_Ke",
-    "map_Ns",
-    "map_Ni",
-    "map_Tr",
-    "map_Tf",
-    "map_aat",
-    "map_refl",
-    "map_bump",
-    "bump",
-    "disp",
-    "map_disp",
-    "decal",
-    "refl",
-    "Pr",
-    "Pm",
-    "Ps",
-    "Pc",
-    "Pcr",
-    "aniso",
-    "anisor",
-    "norm",
-    "map_Pr",
-    "map_Pm",
-    "map_Ps",
-    "map_Pc",
-    "map_Pcr",
-    "map_norm",
-    "map_Kn",
-    "map_normal",
-    "map_aniso",
-    "map_anisor",
-    "map_RMA",
-    "map_ORM",
-    "Pfr",
-    "Pfg",
-    "Pl",
-    "Pf",
-    "map_Pfr",
-    "map_opacity",
-    "map_occlusion",
-];
+const PASSED_OVER: &str = "Ka Km sharpness map_Ka map_Ks map_Ke map_Ns map_Ni map_Tr map_Tf map_aat map_refl \
+    map_bump bump disp map_disp decal refl Pr Pm Ps Pc Pcr aniso anisor norm map_Pr map_Pm \
+    map_Ps map_Pc map_Pcr map_norm map_Kn map_normal map_aniso map_anisor map_RMA map_ORM \
+    Pfr Pfg Pl Pf map_Pfr";
 
 /// The materials found so far in the MTL files of an OBJ file.
 ///
-/// MTL is read here instead of by the parser of the OBJ file, which has no line numbers, panics on the legal `Kd
-/// 0.5`, and leaves `Tr` and everything about textures to its caller.
+/// MTL is read here instead of by tobj, which has no line numbers, panics on the legal `Kd 0.5`, and leaves `Tr` and
+/// everything about textures to its caller.
 #[derive(Default)]
 pub(crate) struct MaterialLibrary {
     /// The materials in the order of the files.
@@ -176,9 +133,9 @@ impl MaterialLibrary {
         warnings: &mut Warnings,
     ) -> Result<()> {
         let (word, rest) = statement.split()?;
-        let is = |keyword: &&&str| keyword.eq_ignore_ascii_case(word);
-        let Some(&keyword) = READ.iter().find(is) else {
-            if !PASSED_OVER.iter().any(|keyword| is(&keyword)) {
+        let is = |keyword: &&str| keyword.eq_ignore_ascii_case(word);
+        let Some(keyword) = READ.into_iter().find(is) else {
+            if !PASSED_OVER.split(' ').any(|keyword| is(&keyword)) {
                 let what = || {
                     format!(
                         "{} is not a keyword of an MTL file, as newmtl, Kd, Ks, Ke, Ns, Ni, d, Tr, illum and \
