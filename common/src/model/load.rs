@@ -10,7 +10,7 @@ use super::obj::Model;
 use super::obj_check::Check;
 use super::parts::NONE;
 use super::smoothing::smooth;
-use super::text::{Folder, Text, shown};
+use super::text::{self, Folder, Text};
 use super::warnings::Kind;
 use crate::scene::material::Material;
 use crate::scene::mesh::{LEAST, Mesh, REACH, around};
@@ -58,25 +58,25 @@ fn checked(path: &Path, model: Model) -> Result<Model> {
         reach <= REACH,
         "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of four coordinates overflow in \
          32 bits",
-        shown(path)
+        text::shown(path)
     );
     let (low, high) = around(model.meshes.iter().flat_map(|mesh| <[Vec3; 2]>::from(mesh.bounds())));
     let size = (high - low).max_element();
     ensure!(
         size == 0.0 || size >= LEAST,
         "{}: is {size:e} from end to end; below {LEAST:e}, products of two lengths vanish in 32 bits",
-        shown(path)
+        text::shown(path)
     );
     Ok(model)
 }
 
 pub(crate) fn load_within(path: &Path, limits: &Limits, place: Place) -> Result<Model> {
     let folder = Folder::of(path)?;
-    let text = Text::read(path, shown(path), limits.obj_bytes)?;
+    let text = Text::read(path, text::shown(path), limits.obj_bytes)?;
     let Check { mut geometry, names, library, mut warnings, .. } =
         Check::run(&text, &folder, limits)?;
-    // Its bytes are of no more use.
-    let text = text.shown;
+    let shown = text.shown.clone();
+    drop(text);
     let texture_places = library.texture_places();
     let (mut materials, textures) = library.finish(limits, &mut warnings);
     let far = geometry.positions.far(geometry.used()).map(|far| match place {
@@ -115,10 +115,10 @@ pub(crate) fn load_within(path: &Path, limits: &Limits, place: Place) -> Result<
     let meshes: Vec<_> =
         parts.into_iter().zip(numbers).map(|(part, number)| geometry.mesh(part, number)).collect();
     let mut warnings = warnings.lines();
-    warnings.extend(far.map(|what| format!("{text}: {what}")));
+    warnings.extend(far.map(|what| format!("{shown}: {what}")));
     if !meshes.iter().any(Mesh::has_area) {
         let what = "none of its triangles has an area, and so nothing of it is seen";
-        warnings.push(format!("{text}: {what}"));
+        warnings.push(format!("{shown}: {what}"));
     }
     Ok(Model { meshes, materials, textures, warnings, ambiguous })
 }
