@@ -60,12 +60,7 @@ impl Composition {
         }
         let Scene { model, instances, camera } = &self.scene;
         let materials = model.materials.clone();
-        let model = Model {
-            meshes: model.meshes.clone(),
-            materials,
-            textures: Vec::new(),
-            warnings: Vec::new(),
-        };
+        let model = Model { meshes: model.meshes.clone(), materials, ..Model::default() };
         let mut scene = Scene { model, instances: instances.clone(), camera: *camera };
         let materials = &mut scene.model.materials;
         for material in materials.iter_mut().filter(|material| !is_lamp(material)) {

@@ -41,10 +41,10 @@ fn objects_that_are_wrong() {
         ("o empty\nv 0 0 0\n", "model.obj: has no faces"),
         ("\u{1f}\u{8b} packed\n", "model.obj:1: "),
         ("solid cube\n", "model.obj:1: \"solid\" is not a keyword of an OBJ file"),
-        ("v 0 0 0\nv nan 0 0\n", "model.obj:2: \"nan\" is not a finite 32-bit number"),
-        ("v 0 inf 0\n", "model.obj:1: \"inf\" is not a finite 32-bit number"),
-        ("v 0 -1e39 0\n", "model.obj:1: \"-1e39\" is not a finite 32-bit number"),
-        ("v 0 zero 0\n", "model.obj:1: \"zero\" is not a number"),
+        ("v 0 0 0\nv nan 0 0\n", "model.obj:2: v has \"nan\", which is not a finite 32-bit number"),
+        ("v 0 inf 0\n", "model.obj:1: v has \"inf\", which is not a finite 32-bit number"),
+        ("v 0 -1e39 0\n", "model.obj:1: v has \"-1e39\", which is not a finite 32-bit number"),
+        ("v 0 zero 0\n", "model.obj:1: v has \"zero\", which is not a number"),
         ("v 0 0\n", "model.obj:1: v has 2 numbers"),
         (
             "v 0 0 0\nv 1 0.",
@@ -93,17 +93,23 @@ fn pipes_and_devices_keep_nobody_waiting() {
 fn materials_that_are_wrong() {
     let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
     for (mtl, words) in [
-        ("newmtl a\nKd red\n", "m.mtl:2: \"red\" is not a number"),
-        ("newmtl a\nKd nan 0 0\n", "m.mtl:2: \"nan\" is not a finite 32-bit number"),
+        (
+            "newmtl a\nKd red\n",
+            "m.mtl:2: Kd has \"red\", which is not a number; the line is ignored",
+        ),
+        ("newmtl a\nKd nan 0 0\n", "m.mtl:2: Kd has \"nan\", which is not a finite 32-bit number"),
         ("newmtl a\nKd 1 1\n", "m.mtl:2: Kd has 2 numbers"),
-        ("newmtl a\nd 2\n", "m.mtl:2: d is 2; it cannot be more than 1"),
-        ("Kd 1 1 1\n", "m.mtl:1: Kd stands before the first newmtl"),
+        ("newmtl a\nd 2\n", "m.mtl:2: d is 2, and cannot be more than 1; 1 is taken"),
+        ("newmtl a\nNs -1.96\n", "m.mtl:2: Ns is -1.96, and cannot be negative; 0 is taken"),
+        ("newmtl a\nTr 1\n", "m.mtl:2: nothing is seen of a material with d 0 or Tr 1"),
+        ("newmtl a\nilum 1\n", "m.mtl:2: \"ilum\" is not a keyword of an MTL file"),
+        ("Kd 1 1 1\nnewmtl a\n", "m.mtl:1: Kd stands before the first newmtl"),
         (
             "newmtl a\nKd 0.5 0",
             "m.mtl:2: Kd has 2 numbers; a colour has 3, or 1 for a grey; the file ends in this line, perhaps cut off",
         ),
     ] {
-        files_refused(&[("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &[words]);
+        files_warned(&[("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &[words]);
     }
     let mtllib = "mtllib ../m.mtl\n";
     let outside = ["model.obj:1: mtllib names \"../m.mtl\", outside the OBJ file's folder"];
@@ -148,6 +154,11 @@ fn models_that_can_do_without() {
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (face, line) in [
         ("f 1/1 2 3", "model.obj:4: texture coordinate index 1 is out of range: the file has 0 "),
+        (
+            "f 1 2\nf 1 2 3",
+            "model.obj:4: a face has 2 corners; it needs at least 3; the face is left out",
+        ),
+        ("vn nan 0 1\nf 1//1 2//1 3", "model.obj:4: vn has \"nan\", which is not a finite 32-bit"),
         ("f 1//1 2//2 3", "model.obj:4: normal index 1 is out of range: the file has 0 normals"),
         ("group a\nf 1 2 3", "model.obj:4: \"group\" is not a keyword of an OBJ file"),
     ] {
@@ -170,7 +181,7 @@ fn models_that_can_do_without() {
         command.current_dir(&folder).args(["--headless", "--size", "8x8", "--scene", file]);
         warned(&mut command, &[unseen]);
     }
-    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}usemtl a\nf 1 2 3\n");
+    let obj = format!("mtllib m.mtl\nusemtl a\nvt 0 0\n{TRIANGLE}usemtl a\nf 1/1 2/1 3/1\n");
     let twice = "model.obj:2: the material \"a\" is not defined; the mtllib files hold";
     for (mtl, line) in [
         ("newmtl b\n", format!("{twice} \"b\"; a grey stands for it (2 in all)").as_str()),
@@ -261,7 +272,7 @@ fn files_of_other_exporters() {
     for (name, obj, mtl, warnings) in [
         ("Blender", BLENDER, BLENDER_MTL, &[][..]),
         ("3ds Max", MAX, MAX_MTL, &[]),
-        ("MeshLab", MESHLAB, "", &[]),
+        ("MeshLab", MESHLAB, "", &["model.obj:13: v has a colour"]),
         ("relative", RELATIVE, "", &["model.obj:25: \"call\" is not a keyword"]),
     ] {
         println!("{name}");
@@ -278,7 +289,7 @@ fn files_of_other_exporters() {
 
 #[test]
 fn a_model_from_elsewhere_renders() {
-    let textured = format!("mtllib a b.mtl\nusemtl a\n{TRIANGLE}");
+    let textured = format!("mtllib a b.mtl\nusemtl a\nvt 0 0\n{TRIANGLE}f 1/1 2/1 3/1\n");
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);

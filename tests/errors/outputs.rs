@@ -75,7 +75,7 @@ fn what_is_read_is_not_written_over() {
 fn a_file_of_the_scene_is_no_output() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
     fs::write(path("m.obj"), obj).unwrap();
     fs::write(path("m.mtl"), "newmtl a\nmap_Kd t.png\n").unwrap();
     image::RgbImage::new(2, 2).save(path("t.png")).unwrap();

@@ -334,12 +334,40 @@ fn pieces_and_models_that_are_wrong() {
         file_refused(&model(outside), "outside the scene file's folder; copy it into the folder");
     }
     for (text, words) in [
-        ("v 0 nan 0\n", "m.obj:1: \"nan\" is not a finite 32-bit number"),
+        ("v 0 nan 0\n", "m.obj:1: v has \"nan\", which is not a finite 32-bit number"),
         ("v 0 0 1e30\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "m.obj: reaches 1e30 from the origin"),
     ] {
         let (_folder, command) = command(model("m.obj").as_bytes(), &[("m.obj", text)]);
         refused_by(command, 1, &[words]);
     }
+}
+
+/// A chair of two materials, and a table.
+const CHAIR: &str = "mtllib m.mtl\no chair\nusemtl wood\nv -1 0 0\nv 1 0 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n\
+    usemtl cloth\nv -1 2 0\nv 1 2 0\nf 4 3 6 5\no table\nusemtl wood\nv -1 0 1\nv 0 0 1\nv 0 1 1\nf 7 8 9\n";
+const CHAIR_MTL: &str = "newmtl wood\nKd 0.6 0.3 0.1\nnewmtl cloth\nKd 0.1 0.1 0.8\n";
+
+#[test]
+fn an_object_of_two_materials_is_placed_whole() {
+    let scene = HEAD.replace("[camera]", "model = \"m.obj\"\n[camera]")
+        + "[[light]]\nkind = \"directional\"\nazimuth = 30\nelevation = 50\nradiance = [3, 3, 3]\n";
+    let piece = format!("{scene}[[piece]]\nmesh = \"chair\"\nat = [0, 0, 0]\n");
+    let picture = |scene: &str, obj: &str| {
+        let (folder, mut command) =
+            command(scene.as_bytes(), &[("m.obj", obj), ("m.mtl", CHAIR_MTL)]);
+        let output = command.args(["--out", "p.png"]).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read(folder.path().join("p.png")).unwrap()
+    };
+    let chair = CHAIR.split("o table").next().unwrap();
+    let placed = picture(&piece, CHAIR);
+    assert!(placed == picture(&scene, chair), "not the whole chair");
+    assert!(placed != picture(&scene, CHAIR), "a table as well");
+
+    let twice = format!("{CHAIR}o chair\nf 7 8 9\n");
+    let (_folder, command) = command(piece.as_bytes(), &[("m.obj", &twice), ("m.mtl", CHAIR_MTL)]);
+    let words = "s.toml:13: several objects are named \"chair\"; give each a name of its own";
+    refused_by(command, 1, &[words]);
 }
 
 #[test]

@@ -86,8 +86,8 @@ pub fn scene((corners, triangles): (Vec<DVec3>, Vec<[u32; 3]>), size: f64, at: D
     };
     let vertices = corners.iter().map(vertex).collect();
     let mesh = Mesh { name: "closed".to_owned(), vertices, triangles, material: 0 };
-    let (materials, textures, warnings) = (vec![Material::default()], Vec::new(), Vec::new());
-    let model = Model { meshes: vec![mesh], materials, textures, warnings };
+    let materials = vec![Material::default()];
+    let model = Model { meshes: vec![mesh], materials, ..Model::default() };
     let transform = common::glam::Affine3A::IDENTITY;
     let instance = Instance { mesh: 0, transform, material: 0, record_offset: 0 };
     Scene { model, instances: vec![instance], camera: Camera::default() }

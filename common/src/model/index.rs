@@ -1,13 +1,13 @@
 //! The indices of positions, normals and texture coordinates in the faces of an OBJ file.
 
-use anyhow::{Context, Result};
-
 use super::text::quoted;
 
 /// An index of a face; it may be out of range.
-pub(crate) fn index(word: &str, of: &str) -> Result<i64> {
-    let index = word.parse().ok();
-    index.with_context(|| format!("{of} index {} is not a whole number", quoted(word)))
+///
+/// # Errors
+/// If it is not a whole number.
+pub(crate) fn index(word: &str, of: &str) -> Result<i64, String> {
+    word.parse().map_err(|_| format!("{of} index {} is not a whole number", quoted(word)))
 }
 
 /// The index as a position from 1, if it is in range. Negative indices count back from the last of `count`.

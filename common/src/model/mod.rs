@@ -1,14 +1,24 @@
 //! Files from untrusted sources: OBJ models, MTL materials and PNG textures, read within limits, with a warning
 //! about faults that other loaders ignore.
 
+mod elements;
+mod face;
 mod index;
 mod limits;
+mod load;
 mod mtl;
+mod mtl_value;
+mod number;
 pub mod obj;
 mod obj_check;
+mod parts;
+mod polygon;
+mod positions;
+mod smoothing;
 mod tally;
 pub mod text;
 mod texture;
+mod unseen;
 mod warnings;
 
 pub use obj::Model;

@@ -3,25 +3,30 @@
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail, ensure};
-use glam::Vec3;
+use anyhow::{Result, ensure};
 
 use super::limits::Limits;
-use super::text::{
-    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, uncommented,
-};
+use super::mtl_value::{BRIGHTEST, Value, after_options};
+use super::text::{Folder, Named, Statement, Text, Unavailable, name, quoted};
 use super::texture::{Role, Texture, TextureFiles};
+use super::unseen::Places;
 use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
 
-/// The largest emission of a material, equal to the largest strength of a light in a scene file: sums of many
-/// samples must not overflow.
-const BRIGHTEST: f32 = 1e6;
+/// The keywords that are read.
+const READ: [&str; 12] =
+    ["newmtl", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
+
+/// The keywords of MTL, and of its extensions by other programs, that these samples do not use.
+const PASSED_OVER: &str = "Ka Km sharpness map_Ka map_Ks map_Ke map_Ns map_Ni map_Tr map_Tf map_aat map_refl \
+    map_bump bump disp map_disp decal refl Pr Pm Ps Pc Pcr aniso anisor norm map_Pr map_Pm \
+    map_Ps map_Pc map_Pcr map_norm map_Kn map_normal map_aniso map_anisor map_RMA map_ORM \
+    Pfr Pfg Pl Pf map_Pfr";
 
 /// The materials found so far in the MTL files of an OBJ file.
 ///
-/// MTL is read here instead of by the parser of the OBJ file, which has no line numbers, panics on the legal `Kd
-/// 0.5`, and leaves `Tr` and everything about textures to its caller.
+/// MTL is read here instead of by tobj, which has no line numbers, panics on the legal `Kd 0.5`, and leaves `Tr` and
+/// everything about textures to its caller.
 #[derive(Default)]
 pub(crate) struct MaterialLibrary {
     /// The materials in the order of the files.
@@ -33,15 +38,14 @@ pub(crate) struct MaterialLibrary {
     read: HashSet<PathBuf>,
     /// Bytes of the files that were read.
     bytes: u64,
-    /// The materials with a colour of their own.
-    colored: HashSet<usize>,
+    /// For each material, the places of statements that may hide it.
+    places: Vec<Places>,
     given: Given,
 }
 
 /// Statements about the current material so far, for those that override or complete another.
 #[derive(Default)]
 struct Given {
-    any: bool,
     opacity: bool,
     /// It has been defined before.
     again: bool,
@@ -65,26 +69,30 @@ impl MaterialLibrary {
         format!("the material {material} is not defined; the mtllib files hold {known}")
     }
 
-    /// The materials, and the textures they index; adds warnings about unavailable ones.
+    /// For each material, the place of its texture's statement, if there is one.
+    pub fn texture_places(&self) -> Vec<Option<String>> {
+        self.places.iter().map(|places| places.texture.clone()).collect()
+    }
+
+    /// The materials, and the textures they index; adds warnings about unavailable ones, and about materials of
+    /// which nothing would be seen.
     pub fn finish(self, limits: &Limits, warnings: &mut Warnings) -> (Vec<Material>, Vec<Texture>) {
-        let Self { mut materials, textures, colored, .. } = self;
+        let Self { mut materials, textures, places, .. } = self;
         let (textures, positions) = textures.load(limits, warnings);
-        for (number, material) in materials.iter_mut().enumerate() {
+        for (material, places) in materials.iter_mut().zip(places) {
             for slot in [&mut material.base_texture, &mut material.opacity_texture] {
                 *slot = slot.and_then(|file| positions[file]);
             }
-            // Without a `Kd`, the texture is used unchanged rather than multiplied by the default grey.
-            if material.base_texture.is_some() && !colored.contains(&number) {
-                material.base_color = Vec3::ONE;
-            }
+            places.show(material, warnings);
         }
         (materials, textures)
     }
 
-    /// Reads an MTL file. Keywords that these samples do not use are ignored.
+    /// Reads an MTL file. Keywords are read in upper and lower case; those that these samples do not use are ignored,
+    /// and wrong values get a warning.
     ///
     /// # Errors
-    /// On a wrong value, with file and line.
+    /// If it is too large, or a name too long, with file and line.
     pub fn read(
         &mut self,
         file: &Named,
@@ -124,70 +132,78 @@ impl MaterialLibrary {
         folder: &Folder,
         warnings: &mut Warnings,
     ) -> Result<()> {
-        let (keyword, rest) = statement.split()?;
+        let (word, rest) = statement.split()?;
+        let is = |keyword: &&str| keyword.eq_ignore_ascii_case(word);
+        let Some(keyword) = READ.into_iter().find(is) else {
+            if !PASSED_OVER.split(' ').any(|keyword| is(&keyword)) {
+                let what = || {
+                    format!(
+                        "{} is not a keyword of an MTL file, as newmtl, Kd, Ks, Ke, Ns, Ni, d, Tr, illum and \
+                         map_Kd are",
+                        quoted(word)
+                    )
+                };
+                warnings.add_word(Kind::Line, word, statement, what);
+            }
+            return Ok(());
+        };
         if keyword == "newmtl" {
-            return self.start(material_name(keyword, rest)?, statement, warnings);
+            return self.start(material_name(word, rest)?, statement, warnings);
         }
-        const READ: [&str; 11] =
-            ["Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
-        if !READ.contains(&keyword) {
+        let mut value = Value { keyword, rest, statement, warnings };
+        let (Some(material), Some(places)) = (self.materials.last_mut(), self.places.last_mut())
+        else {
+            value.leave_out(&format!("{keyword} stands before the first newmtl"));
             return Ok(());
-        }
-        ensure!(self.given.any, "{keyword} stands before the first newmtl");
-        if self.given.again {
-            return Ok(());
-        }
-        let mut pass_over = |what: &str| {
-            let what = || format!("{keyword} has {what}, which is not supported");
-            warnings.add(Kind::Option, statement, what);
         };
         let given = &mut self.given;
-        let position = self.materials.len().saturating_sub(1);
-        let material = self.materials.last_mut().context("no material")?;
+        if given.again {
+            return Ok(());
+        }
+        let set = |slot: &mut f32, value: Option<f32>| *slot = value.unwrap_or(*slot);
         match keyword {
-            "Kd" | "Ks" | "Ke" | "Tf" => {
-                let Some(color) = color(keyword, rest, &mut pass_over)? else { return Ok(()) };
-                let most = color.max_element();
-                ensure!(
-                    most <= BRIGHTEST,
-                    "{keyword} is {most:?}; it cannot be more than {BRIGHTEST}"
-                );
-                match keyword {
-                    "Kd" => {
-                        material.base_color = color;
-                        self.colored.insert(position);
-                    }
-                    "Ks" => material.specular = color,
-                    "Tf" => material.transmission = color,
-                    _ => material.emission = color,
+            "Kd" => {
+                if let Some(color) = value.color(1.0) {
+                    material.base_color = color;
+                    places.color = Some(statement.place());
                 }
             }
-            "Ns" => material.shininess = number(keyword, rest, f32::MAX)?,
-            "Ni" => material.refraction = number(keyword, rest, f32::MAX)?,
+            "Ks" => material.specular = value.color(1.0).unwrap_or(material.specular),
+            "Tf" => material.transmission = value.color(1.0).unwrap_or(material.transmission),
+            "Ke" => material.emission = value.color(BRIGHTEST).unwrap_or(material.emission),
+            "Ns" => set(&mut material.shininess, value.number(0.0, f32::MAX)),
+            "Ni" => set(&mut material.refraction, value.number(1.0, f32::MAX)),
             "d" => {
-                let value = rest.strip_prefix("-halo").inspect(|_| pass_over("the option -halo"));
-                material.opacity = number(keyword, value.unwrap_or(rest), 1.0)?;
-                given.opacity = true;
+                if let Some(rest) = rest.strip_prefix("-halo") {
+                    value.pass_over("the option -halo");
+                    value.rest = rest;
+                }
+                if let Some(opacity) = value.number(0.0, 1.0) {
+                    material.opacity = opacity;
+                    given.opacity = true;
+                    places.opacity = (opacity == 0.0).then(|| statement.place());
+                }
             }
             "Tr" => {
                 // Old exporters wrote Tr as another name of d, so d takes precedence.
-                let transparency = number(keyword, rest, 1.0)?;
-                if !given.opacity {
+                let transparency = value.number(0.0, 1.0);
+                if let Some(transparency) = transparency.filter(|_| !given.opacity) {
                     material.opacity = 1.0 - transparency;
+                    places.opacity = (transparency == 1.0).then(|| statement.place());
                 }
             }
             "illum" => {
-                let model = uncommented(rest).trim();
-                let number = model.parse().ok().filter(|number| *number <= 10);
-                material.illumination = number.with_context(|| {
-                    format!("illum {} is not a whole number from 0 to 10", quoted(model))
-                })?;
+                if let Some(illumination) = value.illumination() {
+                    material.illumination = illumination;
+                    let is_glass = matches!(illumination, 4 | 6 | 7 | 9);
+                    places.glass = is_glass.then(|| statement.place());
+                }
             }
             _ => {
-                let named = after_options(rest, &mut pass_over);
+                let named = after_options(rest, &mut |what: &str| value.pass_over(what));
                 let image = match folder.find(keyword, named, Some(file)) {
                     Err(error) if error.is::<Unavailable>() => {
-                        warnings.add(Kind::Texture, statement, || error);
+                        value.warnings.add(Kind::Texture, statement, || error);
                         return Ok(());
                     }
                     image => image?,
@@ -197,13 +213,14 @@ impl MaterialLibrary {
                     _ => (&mut material.opacity_texture, Role::Opacity),
                 };
                 *slot = Some(self.textures.add(image, role, statement.place()));
+                places.texture = Some(format!("{}: {keyword}", statement.place()));
             }
         }
         Ok(())
     }
 
     fn start(&mut self, name: &str, statement: &Statement, warnings: &mut Warnings) -> Result<()> {
-        self.given = Given { any: true, ..Given::default() };
+        self.given = Given::default();
         if let Some(first) = self.found.get(name) {
             let what = || format!("the material {} is defined at {first} already", quoted(name));
             warnings.add(Kind::Definition, statement, what);
@@ -212,70 +229,18 @@ impl MaterialLibrary {
         }
         self.found.insert(name.to_owned(), statement.place());
         self.materials.push(Material { name: name.to_owned(), ..Material::default() });
+        self.places.push(Places::default());
         Ok(())
     }
 }
 
 /// The name of a material. Some exporters omit it in both files; then the OBJ file's empty name refers to the MTL
-/// file's. tobj does not accept an empty name.
+/// file's.
 ///
 /// # Errors
 /// If it is too long.
 pub(crate) fn material_name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str> {
     if rest.is_empty() { Ok("(no name)") } else { name(keyword, rest) }
-}
-
-/// Three numbers from 0, or one for all three; `None` for an unsupported form.
-fn color(keyword: &str, rest: &str, pass_over: &mut impl FnMut(&str)) -> Result<Option<Vec3>> {
-    let first = rest.split_whitespace().next().unwrap_or_default();
-    if matches!(first, "spectral" | "xyz") {
-        pass_over(&format!("the form {first}"));
-        return Ok(None);
-    }
-    let mut values = [0.0; 3];
-    let color = match numbers(rest, &mut values)? {
-        1 => Vec3::splat(values[0]),
-        3 => Vec3::from(values),
-        count => bail!("{keyword} has {count} numbers; a colour has 3, or 1 for a grey"),
-    };
-    ensure!(color.min_element() >= 0.0, "{keyword} has a negative number; a colour has none");
-    Ok(Some(color))
-}
-
-/// The name of a texture, after the options.
-fn after_options<'a>(rest: &'a str, pass_over: &mut impl FnMut(&str)) -> &'a str {
-    let mut rest = rest;
-    while let Some(option) = rest.split_whitespace().next().filter(|word| word.starts_with('-')) {
-        // The minimum number of arguments of an option; of offset, scale and turbulence, only the first is required.
-        let (least, most) = match option {
-            "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-colorspace"
-            | "-imfchan" | "-texres" | "-type" => (1, 1),
-            "-mm" => (2, 2),
-            "-o" | "-s" | "-t" => (1, 3),
-            // Not an option, but a name that begins like one.
-            _ => break,
-        };
-        pass_over(&format!("the option {option}"));
-        rest = rest[option.len()..].trim_start();
-        for taken in 0..most {
-            let word = rest.split_whitespace().next().unwrap_or_default();
-            if taken >= least && word.parse::<f32>().is_err() {
-                break;
-            }
-            rest = rest[word.len()..].trim_start();
-        }
-    }
-    rest
-}
-
-/// A single number from 0 to `most`.
-fn number(keyword: &str, rest: &str, most: f32) -> Result<f32> {
-    let mut values = [0.0; 1];
-    ensure!(numbers(rest, &mut values)? == 1, "{keyword} is not followed by a number");
-    let [value] = values;
-    ensure!(value >= 0.0, "{keyword} is {value}; it cannot be negative");
-    ensure!(value <= most, "{keyword} is {value}; it cannot be more than {most}");
-    Ok(value)
 }
 
 #[cfg(test)]

@@ -1,13 +1,14 @@
-//! Reading an OBJ file: its meshes, and the materials and textures it names. tobj parses it.
+//! Reading an OBJ file: its meshes, and the materials and textures it names.
 //!
-//! Files from outside are untrusted: [`load`] checks them first.
+//! Files from outside are untrusted, and often not quite right: [`load`] reads them with line numbers and limits.
+//! tobj reads the project's own.
 
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use glam::{Vec2, Vec3};
 
-pub use super::obj_check::load;
+pub use super::load::{load, load_centered};
 use super::text::{note_opened, shown};
 use super::texture::Texture;
 use crate::scene::material::Material;
@@ -20,16 +21,17 @@ use crate::scene::mesh::{Mesh, Vertex};
 ///
 /// /// A scene of one mesh, made without a file.
 /// fn scene(mesh: Mesh) -> Scene {
-///     let (transform, textures, warnings) = (Affine3A::IDENTITY, vec![], vec![]);
+///     let transform = Affine3A::IDENTITY;
 ///     let placed = Instance { mesh: 0, transform, material: mesh.material, record_offset: 0 };
 ///     let materials = vec![Material::default()];
-///     let model = Model { meshes: vec![mesh], materials, textures, warnings };
+///     let model = Model { meshes: vec![mesh], materials, ..Model::default() };
 ///     Scene { model, instances: vec![placed], camera: Camera::default() }
 /// }
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
-    /// The meshes in the file's order; at least one, each with triangles.
+    /// The meshes in the file's order; at least one, each with triangles. An object of several materials is
+    /// several meshes of its name.
     pub meshes: Vec<Mesh>,
     /// The materials of the meshes.
     pub materials: Vec<Material>,
@@ -38,6 +40,8 @@ pub struct Model {
     /// Warnings about the files and the replacements used, one line per kind, with file and line of the first and
     /// the count of all.
     pub warnings: Vec<String>,
+    /// Names that several objects of the file have: they do not say which is meant.
+    pub ambiguous: Vec<String>,
 }
 
 /// Reads one of the project's own models without checks, because a tool of the project has written it.
@@ -55,7 +59,7 @@ pub fn load_own(path: &Path) -> Result<Model> {
         materials.into_iter().map(|material| own_material(path, material, &mut textures));
     let materials = materials.collect::<Result<Vec<_>>>().with_context(failed)?;
     let meshes = models.into_iter().map(|model| mesh(model, 0)).collect();
-    Ok(Model { meshes, materials, textures, warnings: Vec::new() })
+    Ok(Model { meshes, materials, textures, ..Model::default() })
 }
 
 /// One of the project's own materials, and its textures, if they are not loaded yet.
@@ -89,7 +93,7 @@ fn own_material(
 }
 
 /// A mesh in its form for shaders: normals of unit length, texture coordinates from the top.
-pub(crate) fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
+fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
     let tobj::Mesh { positions, normals, texcoords, indices, material_id, .. } = model.mesh;
     let position = |index: u32| Vec3::from_slice(&positions[3 * index as usize..]);
     let mut triangles: Vec<[u32; 3]> =
@@ -116,7 +120,7 @@ pub(crate) fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
 }
 
 /// The normal of a counter-clockwise triangle; any direction if it has no area, because no ray hits it.
-fn flat_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
+pub(crate) fn flat_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
     // Products of very large or very small 32-bit numbers overflow or vanish in 32 bits.
     let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
     let normal = (b - a).cross(c - a);
@@ -125,7 +129,7 @@ fn flat_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
 }
 
 /// The vector with unit length, unless it is zero.
-fn unit(vector: Vec3) -> Option<Vec3> {
+pub(crate) fn unit(vector: Vec3) -> Option<Vec3> {
     let vector = vector.as_dvec3();
     let length = vector.length();
     (length > 0.0).then(|| (vector / length).as_vec3())

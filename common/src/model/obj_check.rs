@@ -1,96 +1,52 @@
-//! Checks of an untrusted OBJ file.
-//!
-//! The text is checked statement by statement, so that every fault has a line number, and rewritten in a plain
-//! form, which tobj then parses: only `v`, `vt`, `vn`, `f`, `o` and `usemtl`, every corner with all three indices.
+//! The statements of an untrusted OBJ file, read one by one, so that every fault has a line number.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
-use std::fmt::Write;
-use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
-use glam::Vec3;
+use anyhow::{Error, Result, anyhow, ensure};
+use glam::{Vec2, Vec3};
 
-use super::index::{index, out_of_range, position};
 use super::limits::Limits;
 use super::mtl::{MaterialLibrary, material_name};
-use super::obj::{self, Model};
+use super::number::words;
+use super::parts::{Geometry, Parts};
+use super::polygon::Triangulator;
 use super::tally::Tally;
-use super::text::{
-    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, shown, uncommented,
-};
+use super::text::{Folder, Named, Statement, Text, Unavailable, name, quoted};
 use super::warnings::{Kind, Warnings};
-use crate::scene::material::Material;
-use crate::scene::mesh::{LEAST, Mesh, REACH, around};
 
-/// The indices of corners without normal or texture coordinates; they are replaced when the parsed mesh is
-/// converted for shaders.
-const PREAMBLE: &str = "mtllib all\nvn 0 0 0\nvt 0 1\n";
-
-/// The most corners of one face.
-const CORNERS: usize = 1024;
-
-/// Reads an OBJ file with its MTL files and PNG textures.
-///
-/// A new object, a new group in a file without objects, or another material starts a new mesh. Polygons become
-/// fans of triangles. A corner without a normal gets its triangle's: a cube must not be shaded like a ball, and
-/// OBJ smooths only if the file says so. Texture coordinates are converted to Vulkan's, v downwards; a corner
-/// without them gets (0, 0). A face without material gets [`Material::default`]. Lines, points, curved surfaces
-/// and vertex colours are ignored.
-///
-/// Real files are often incomplete. For a missing MTL file, a texture that is missing or outside the OBJ file's
-/// folder, an undefined material, a normal or texture coordinate out of range, or a statement of another format,
-/// the model is loaded without it, with a line in [`Model::warnings`].
-///
-/// # Errors
-/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it extends too
-/// far or is too small, needs too much memory, one of the files is too large, or an MTL file is outside the OBJ
-/// file's folder; the message is one line with file and line number.
-pub fn load(path: &Path) -> Result<Model> {
-    let model = load_within(path, &Limits::DEFAULT)?;
-    let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
-    ensure!(
-        reach <= REACH,
-        "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of four coordinates overflow in \
-         32 bits",
-        shown(path)
-    );
-    let (low, high) = around(model.meshes.iter().flat_map(|mesh| <[Vec3; 2]>::from(mesh.bounds())));
-    let size = (high - low).max_element();
-    ensure!(
-        size == 0.0 || size >= LEAST,
-        "{}: is {size:e} from end to end; below {LEAST:e}, products of two lengths vanish in 32 bits",
-        shown(path)
-    );
-    Ok(model)
-}
-
-pub(crate) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
-    let folder = Folder::of(path)?;
-    let text = Text::read(path, shown(path), limits.obj_bytes)?;
-    let Check { plain, library, mut warnings, .. } = Check::run(&text, &folder, limits)?;
-    let (mut materials, textures) = library.finish(limits, &mut warnings);
-
-    let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
-    // Only names and positions: the contents of materials were read in the check.
-    let names =
-        materials.iter().enumerate().map(|(index, material)| (material.name.clone(), index));
-    let names = |_: &Path| Ok((Vec::new(), names.clone().collect()));
-    let parsed = tobj::load_obj_buf(&mut plain.as_bytes(), &options, names);
-    let (models, _) = parsed.map_err(|error| anyhow!("{}: tobj: {error}", text.shown))?;
-
-    let models = models.into_iter().filter(|model| !model.mesh.indices.is_empty());
-    let default = materials.len();
-    let meshes: Vec<_> = models.map(|model| obj::mesh(model, default)).collect();
-    if meshes.iter().any(|mesh| mesh.material == default) {
-        materials.push(Material::default());
-    }
-    let mut warnings = warnings.lines();
-    if !meshes.iter().any(Mesh::has_area) {
-        let what = "none of its triangles has an area, and so nothing of it is seen";
-        warnings.push(format!("{}: {what}", text.shown));
-    }
-    Ok(Model { meshes, materials, textures, warnings })
-}
+/// Keywords of statements that are not shown.
+const PASSED_OVER: [&str; 29] = [
+    "g",
+    "mg",
+    "l",
+    "p",
+    "vp",
+    "deg",
+    "bmat",
+    "step",
+    "cstype",
+    "curv",
+    "curv2",
+    "surf",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "usemap",
+    "maplib",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+];
 
 /// The uses of a material that was undefined when it was first used.
 struct Undefined {
@@ -102,64 +58,74 @@ struct Undefined {
 
 /// The state of a check, statement by statement.
 pub(crate) struct Check<'a> {
-    /// The text for tobj.
-    pub plain: String,
+    pub geometry: Geometry,
+    /// The number of each name in a `usemtl` statement.
+    pub names: HashMap<String, u32>,
     /// The materials of the MTL files so far.
     pub library: MaterialLibrary,
     /// Faults that do not prevent the model from being shown.
     pub warnings: Warnings,
     /// The materials used before any MTL file defined them, each with the number of uses and the first.
     undefined: HashMap<String, Undefined>,
-    tally: Tally,
+    pub parts: Parts,
+    pub smoothing: u32,
+    pub triangulator: Triangulator,
+    /// The first line or face that was left out: the reason why nothing is shown, if nothing is.
+    left_out: Option<Error>,
+    pub tally: Tally,
     libraries: usize,
     has_objects: bool,
-    limits: &'a Limits,
+    pub limits: &'a Limits,
 }
 
 impl<'a> Check<'a> {
-    /// Checks a whole file and its MTL files.
+    /// Reads a whole file and its MTL files.
     ///
     /// # Errors
-    /// On the first fault, with file and line.
+    /// On the first fault with which it cannot be shown, with file and line.
     pub fn run(text: &Text, folder: &Folder, limits: &'a Limits) -> Result<Self> {
         let mut check = Self {
-            plain: PREAMBLE.to_owned(),
+            geometry: Geometry::default(),
+            names: HashMap::new(),
             library: MaterialLibrary::default(),
             warnings: Warnings::default(),
             undefined: HashMap::new(),
-            tally: Tally::default(),
+            parts: Parts::default(),
+            smoothing: 0,
+            triangulator: Triangulator::default(),
+            left_out: None,
+            tally: Tally { text: text.size(), ..Tally::default() },
             libraries: 0,
             has_objects: false,
             limits,
         };
-        check.tally.text = text.size() + check.plain.len();
-        let mut stray = None;
         for statement in text.statements() {
-            let (keyword, rest) = statement.split().map_err(|error| statement.at(error))?;
-            let before = check.plain.len();
+            let (word, rest) = statement.split().map_err(|error| statement.at(error))?;
+            let keyword = if word.bytes().any(|byte| byte.is_ascii_uppercase()) {
+                Cow::Owned(word.to_ascii_lowercase())
+            } else {
+                Cow::Borrowed(word)
+            };
             if keyword == "mtllib" {
                 for file in check.libraries(rest, &statement, folder)? {
                     check.library.read(&file, folder, limits, &mut check.warnings)?;
                 }
-            } else if let Some(error) =
-                check.statement(keyword, rest, &statement).map_err(|error| statement.at(error))?
-            {
-                check.warnings.add(Kind::Keyword, &statement, || &error);
-                stray.get_or_insert_with(|| statement.at(error));
-            }
-            check.tally.text += check.plain.len() - before;
-            if check.tally.bytes() > limits.memory {
-                // The rest is read only to state the total.
-                check.plain = String::new();
+            } else if PASSED_OVER.contains(&&*keyword) && (keyword != "g" || check.has_objects) {
+                continue;
+            } else {
+                check
+                    .statement(&keyword, word, rest, &statement)
+                    .map_err(|error| statement.at(error))?;
             }
         }
         // A file without faces but with other statements is not an OBJ file: report that instead.
-        match stray {
-            Some(stray) if check.tally.triangles == 0 => return Err(stray),
+        match check.left_out.take() {
+            Some(error) if check.tally.triangles == 0 => return Err(error),
             _ => ensure!(check.tally.triangles > 0, "{}: has no faces", text.shown),
         }
         check.tally.check(limits).map_err(|error| anyhow!("{}: {error}", text.shown))?;
         check.tell_undefined();
+        check.geometry.parts = std::mem::take(&mut check.parts).list;
         Ok(check)
     }
 
@@ -227,142 +193,113 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Handles a statement other than `mtllib`; returns the fault if it is not an OBJ statement.
+    /// Handles a statement other than `mtllib`; `word` is its keyword as the file has it.
     fn statement(
         &mut self,
         keyword: &str,
+        word: &str,
         rest: &str,
         statement: &Statement,
-    ) -> Result<Option<String>> {
+    ) -> Result<()> {
         match keyword {
-            "v" => {
-                let mut values = [0.0; 7];
-                let words = match numbers(rest, &mut values)? {
-                    // The last 3 of 6 or 7 are a colour.
-                    3 | 6 | 7 => 3,
-                    4 => {
-                        let point = Vec3::from_slice(&values) / values[3];
-                        ensure!(point.is_finite(), "a position divided by its w is not finite");
-                        4
-                    }
-                    count => bail!("v has {count} numbers; x y z, x y z w or x y z r g b is right"),
-                };
-                self.tally.positions += 1;
-                self.write(keyword, rest, words);
-            }
+            "v" => self.position(rest, statement)?,
             "vt" => {
-                let count = numbers(rest, &mut [0.0; 3])?;
-                ensure!(count > 0, "vt has no numbers; u, u v or u v w is right");
+                let coordinate = self.coordinate(rest, statement).unwrap_or_else(|what| {
+                    self.warnings.add(Kind::Coordinate, statement, || what);
+                    // As without any: v is upwards here.
+                    Vec2::Y
+                });
                 self.tally.coordinates += 1;
-                self.write(keyword, rest, count.min(2));
-                if count == 1 {
-                    self.plain.insert_str(self.plain.len() - 1, " 0");
-                }
+                self.geometry.coordinates.push(coordinate);
             }
             "vn" => {
-                let count = numbers(rest, &mut [0.0; 3])?;
-                ensure!(count == 3, "vn has {count} numbers; x y z is right");
+                let normal = self.normal(rest, statement).unwrap_or_else(|what| {
+                    self.warnings.add(Kind::Normal, statement, || what);
+                    Vec3::ZERO
+                });
                 self.tally.normals += 1;
-                self.write(keyword, rest, 3);
+                self.geometry.normals.push(normal);
             }
-            "f" => {
-                let corners = self.face(uncommented(rest), statement)?;
-                ensure!(corners >= 3, "a face has {corners} corners; it needs at least 3");
-                self.tally.faces += 1;
-                self.tally.corners += corners;
-                self.tally.triangles += corners - 2;
-            }
+            "f" => self.face(rest, statement)?,
             "o" => {
                 self.has_objects = true;
-                self.start_mesh("o", rest)?;
+                self.parts.start_object(if rest.is_empty() { "" } else { name(word, rest)? });
             }
-            "g" if !self.has_objects => self.start_mesh("o", rest)?,
-            "usemtl" => {
-                let material = material_name(keyword, rest)?;
-                self.uses(material, statement);
-                self.start_mesh(keyword, material)?;
+            "g" => {
+                let name = if rest.is_empty() { "" } else { name(word, rest)? };
+                if self.parts.start_group(name) {
+                    self.tally.text += name.len();
+                }
             }
-            "g" | "s" | "mg" | "l" | "p" | "vp" | "deg" | "bmat" | "step" | "cstype" | "curv"
-            | "curv2" | "surf" | "parm" | "trim" | "hole" | "scrv" | "sp" | "end" | "con"
-            | "bevel" | "c_interp" | "d_interp" | "lod" | "usemap" | "maplib" | "shadow_obj"
-            | "trace_obj" | "ctech" | "stech" => {}
+            "usemtl" => self.material(material_name(word, rest)?, statement)?,
+            "s" => match words(rest).next().unwrap_or("off") {
+                "off" | "OFF" | "Off" | "null" | "none" => self.smoothing = 0,
+                "on" | "ON" | "On" => self.smoothing = 1,
+                group => match group.parse() {
+                    Ok(group) => self.smoothing = group,
+                    Err(_) => {
+                        let what = "is not a smoothing group, which is a whole number, or off";
+                        self.leave_out(
+                            Kind::Line,
+                            "s",
+                            statement,
+                            format!("{} {what}", quoted(group)),
+                        );
+                    }
+                },
+            },
             _ => {
-                // Text, not an error: that would capture a backtrace for each of a million lines.
-                return Ok(Some(format!(
+                let what = format!(
                     "{} is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are",
-                    quoted(keyword)
-                )));
+                    quoted(word)
+                );
+                self.leave_out(Kind::Line, word, statement, what);
             }
         }
-        Ok(None)
-    }
-
-    fn write(&mut self, keyword: &str, rest: &str, words: usize) {
-        self.plain.push_str(keyword);
-        for word in rest.split_whitespace().take(words) {
-            self.plain.push(' ');
-            self.plain.push_str(word);
+        if self.tally.bytes() > self.limits.memory {
+            // The rest is read only to state the total.
+            self.geometry = Geometry::default();
+            self.parts.list.iter_mut().for_each(|part| part.triangles = Vec::new());
         }
-        self.plain.push('\n');
-    }
-
-    fn start_mesh(&mut self, keyword: &str, rest: &str) -> Result<()> {
-        let limit = self.limits.meshes;
-        self.tally.meshes += 1;
-        ensure!(
-            self.tally.meshes <= limit,
-            "more than {limit} objects and materials, the most that are read"
-        );
-        let name = if rest.is_empty() { "" } else { name(keyword, rest)? };
-        writeln!(self.plain, "{keyword} {name}")?;
         Ok(())
     }
 
-    fn face(&mut self, rest: &str, statement: &Statement) -> Result<usize> {
-        self.plain.push('f');
-        let mut corners = 0;
-        for corner in rest.split_whitespace() {
-            corners += 1;
-            ensure!(
-                corners <= CORNERS,
-                "a face has more than {CORNERS} corners, the most that are read"
-            );
-            let mut parts = corner.split('/');
-            let mut part = || parts.next().unwrap_or_default();
-            let (v, vt, vn) = (part(), part(), part());
-            ensure!(
-                parts.next().is_none(),
-                "the corner {} has too many parts; v, v/vt, v//vn or v/vt/vn is right",
-                quoted(corner)
-            );
-            let v = index(v, "face")?;
-            let Tally { positions, coordinates, normals, .. } = self.tally;
-            let v = position(v, positions)
-                .with_context(|| out_of_range(v, "face", positions, "positions"))?;
-            // The preamble's come first, and replace missing ones and those out of range.
-            let mut other = |word: &str, kind, count, of: &str, what| -> Result<usize> {
-                if word.is_empty() {
-                    return Ok(1);
-                }
-                let index = index(word, of)?;
-                if let Some(position) = position(index, count) {
-                    return Ok(1 + position);
-                }
-                self.warnings.add(kind, statement, || out_of_range(index, of, count, what));
-                Ok(1)
-            };
-            let (of, what) = ("texture coordinate", "texture coordinates");
-            let vt = other(vt, Kind::Coordinate, coordinates, of, what)?;
-            let vn = other(vn, Kind::Normal, normals, "normal", "normals")?;
-            write!(self.plain, " {v}/{vt}/{vn}")?;
-        }
-        self.plain.push('\n');
-        Ok(corners)
+    /// Warns about a line that is left out.
+    pub fn leave_out(&mut self, kind: Kind, word: &str, statement: &Statement, what: String) {
+        self.warnings.add_word(kind, word, statement, || &what);
+        self.left_out.get_or_insert_with(|| statement.at(what));
+    }
+
+    fn material(&mut self, material: &str, statement: &Statement) -> Result<()> {
+        self.uses(material, statement);
+        let number = match self.names.get(material) {
+            Some(&number) => number,
+            None => {
+                self.count_mesh(0)?;
+                let number = self.names.len() as u32;
+                self.names.insert(material.to_owned(), number);
+                number
+            }
+        };
+        self.parts.set_material(number);
+        Ok(())
+    }
+
+    /// Counts a mesh or a material, and the bytes of its name beyond the usual.
+    pub fn count_mesh(&mut self, name: usize) -> Result<()> {
+        let most = self.limits.meshes;
+        self.tally.meshes += 1;
+        self.tally.text += name;
+        ensure!(
+            self.tally.meshes <= most,
+            "more than {most} objects and materials, the most that are read"
+        );
+        Ok(())
     }
 }
 
 /// True if a file is missing: a model may do without it, but must not name materials outside its folder.
-fn is_missing(error: &anyhow::Error) -> bool {
+fn is_missing(error: &Error) -> bool {
     matches!(error.downcast_ref(), Some(Unavailable::Missing(_)))
 }
 

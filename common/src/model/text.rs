@@ -11,7 +11,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Result, anyhow, bail, ensure};
 
 /// Bytes of one statement; a polygon of 1024 corners needs about half.
 const STATEMENT_BYTES: usize = 64 << 10;
@@ -204,23 +204,6 @@ pub(crate) fn name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str> {
         "the name is too long: {bytes} bytes, at most {NAME_BYTES} are read"
     );
     Ok(rest)
-}
-
-/// Reads the numbers after a keyword into `values` and returns their count.
-///
-/// # Errors
-/// If one is not a number, not finite, or there are more than `values` has room for.
-pub(crate) fn numbers(rest: &str, values: &mut [f32]) -> Result<usize> {
-    let mut count = 0;
-    for word in uncommented(rest).split_whitespace() {
-        let value: f32 =
-            word.parse().ok().with_context(|| format!("{} is not a number", quoted(word)))?;
-        ensure!(value.is_finite(), "{} is not a finite 32-bit number", quoted(word));
-        let most = values.len();
-        *values.get_mut(count).with_context(|| format!("more than {most} numbers"))? = value;
-        count += 1;
-    }
-    Ok(count)
 }
 
 /// A word of the file on one line, shortened and escaped.

@@ -35,12 +35,13 @@ pub struct Instance {
 }
 
 impl Scene {
-    /// Opens an OBJ file: each mesh once, at its place in the file, with a camera that shows all of it.
+    /// Opens an OBJ file: each mesh once, at its place in the file, with a camera that shows all of it. A model that is
+    /// far from the origin is moved there.
     ///
     /// # Errors
     /// As [`obj::load`].
     pub fn open(path: &Path) -> Result<Self> {
-        let model = obj::load(path)?;
+        let model = obj::load_centered(path)?;
         let instances = (0..model.meshes.len())
             .map(|mesh| Instance {
                 mesh,

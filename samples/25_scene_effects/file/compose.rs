@@ -1,6 +1,6 @@
 //! From the tables of a scene file to what is rendered.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use anyhow::Result;
@@ -21,6 +21,9 @@ use crate::{Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLen
 
 /// Pieces, spheres, boxes, solids and materials, each.
 const MOST: usize = 100_000;
+
+/// Meshes of all pieces: an object of several materials is several.
+const MOST_MESHES: usize = 1_000_000;
 
 impl Description {
     /// Builds the composition that the file describes.
@@ -96,8 +99,8 @@ impl Description {
                 error.to_string().replace("the OBJ file's folder", "the scene file's folder");
             source.error(named.span().start, &what)
         })?;
-        // Opened as a scene, it is held to where rays can go.
-        Ok(Scene::open(&path.with_file_name(&found.name))?.model)
+        // Where it stands: the scene file's other coordinates go with it.
+        obj::load(&path.with_file_name(&found.name))
     }
 
     /// Adds and changes materials, and returns the number of each name, and the finishes.
@@ -224,20 +227,33 @@ fn place(
     materials: &Numbers,
     source: &Source,
 ) -> Result<Vec<Instance>> {
-    let meshes = numbers(model.meshes.iter().map(|mesh| &mesh.name));
+    // An object of several materials is several meshes of its name.
+    let mut meshes: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (number, mesh) in model.meshes.iter().enumerate() {
+        meshes.entry(&mesh.name).or_default().push(number);
+    }
     let reaches: Vec<f32> = model.meshes.iter().map(Mesh::reach).collect();
-    let placed = pieces.iter().map(|piece| {
+    let mut placed = Vec::new();
+    for piece in pieces {
         let PieceTable { mesh, at, turn, size, material } = piece.get_ref();
-        let mesh = *meshes.get(mesh.get_ref()).ok_or_else(|| {
+        let wrong = |what: &str| source.error(mesh.span().start, what);
+        let name = mesh.get_ref();
+        if model.ambiguous.contains(name) {
+            let what =
+                format!("several objects are named {}; give each a name of its own", quoted(name));
+            return Err(wrong(&what));
+        }
+        let parts = meshes.get(name.as_str()).ok_or_else(|| {
             let known = some(model.meshes.iter().map(|mesh| &mesh.name));
-            let what = format!("no mesh {}; there is {known}", quoted(mesh.get_ref()));
-            source.error(mesh.span().start, &what)
+            wrong(&format!("no mesh {}; there is {known}", quoted(name)))
         })?;
-        let material = match material {
-            Some(name) => find(model, materials, name, source)?,
-            None => model.meshes[mesh].material,
-        };
-        let reach = reaches[mesh] * size;
+        if placed.len() + parts.len() > MOST_MESHES {
+            let what = format!("more than {MOST_MESHES} meshes placed, the most that are read");
+            return Err(wrong(&what));
+        }
+        let material =
+            material.as_ref().map(|name| find(model, materials, name, source)).transpose()?;
+        let reach = parts.iter().map(|&mesh| reaches[mesh]).fold(0.0, f32::max) * size;
         if reach > REACH {
             let what = format!(
                 "a piece that reaches {reach:e} from its place; beyond {REACH:e}, products of four coordinates \
@@ -247,7 +263,10 @@ fn place(
         }
         let matrix3 = Mat3A::from_rotation_y(turn.to_radians()) * *size;
         let transform = Affine3A { matrix3, translation: (*at).into() };
-        Ok(Instance { mesh, transform, material, record_offset: 0 })
-    });
-    placed.collect()
+        placed.extend(parts.iter().map(|&mesh| {
+            let material = material.unwrap_or(model.meshes[mesh].material);
+            Instance { mesh, transform, material, record_offset: 0 }
+        }));
+    }
+    Ok(placed)
 }

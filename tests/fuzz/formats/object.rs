@@ -79,7 +79,7 @@ pub fn read(path: &Path) -> Result<String> {
     whole(&scene.model);
     let (low, high) = scene.bounds();
     assert!(low.is_finite() && high.is_finite() && low.cmple(high).all(), "{low} to {high}");
-    let Model { meshes, materials, textures, warnings } = scene.model;
+    let Model { meshes, materials, textures, warnings, .. } = scene.model;
     let counts = [meshes.len(), materials.len(), textures.len()].map(magnitude);
     Ok(format!("{counts:?} {}", warnings.join(" ")))
 }

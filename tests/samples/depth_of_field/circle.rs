@@ -54,8 +54,13 @@ impl Lamps {
             }
             text += "f -4 -3 -2 -1\n";
         }
-        let material =
-            format!("newmtl lamp\nKd 0 0 0\nKe {RADIANCE} {RADIANCE} {RADIANCE}\nillum 0\n");
+        if eye != [0.0; 3] {
+            // Out of sight. Without it, the model would be moved to the origin.
+            text += "usemtl dark\nv 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n";
+        }
+        let material = format!(
+            "newmtl lamp\nKd 0 0 0\nKe {RADIANCE} {RADIANCE} {RADIANCE}\nillum 0\nnewmtl dark\nKd 0 0 0\n"
+        );
         for (name, text) in [("lamps.obj", text), ("lamps.mtl", material)] {
             fs::write(folder.path().join(name), text).expect("a file can be written");
         }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::model::limits::Limits;
-use crate::model::obj_check::load_within;
+use crate::model::load::{Place, load_within};
 use crate::scene::assets;
 use proptest::prelude::*;
 use std::path::MAIN_SEPARATOR;
@@ -23,7 +23,7 @@ pub fn load_files(files: &[(&str, &[u8])], limits: &Limits) -> Result<Model, Str
         assert!(!line.contains('\n'), "{line}");
         line
     };
-    let loaded = load_within(&folder.path().join("model.obj"), limits);
+    let loaded = load_within(&folder.path().join("model.obj"), limits, Place::AsWritten);
     let mut model = loaded.map_err(|error| relative(format!("{error:#}")))?;
     model.warnings = model.warnings.into_iter().map(relative).collect();
     Ok(model)
@@ -224,4 +224,137 @@ proptest! {
 fn what_is_read_without_a_check_is_what_is_read_with_one() {
     let path = crate::scene::assets().join("chess.obj");
     assert_eq!(load_own(&path).unwrap(), load(&path).unwrap());
+}
+
+#[test]
+fn the_notch_of_a_polygon_stays_open_from_every_first_corner() {
+    let l = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n";
+    let area = |face: &str| {
+        let mesh = only_mesh(&format!("{l}f {face}\n"));
+        let area = |[a, b, c]: &[Vec3; 3]| 0.5 * (*b - *a).cross(*c - *a).z;
+        positions(&mesh).iter().map(area).sum::<f32>()
+    };
+    assert_eq!(area("1 2 3 4 5 6"), 3.0);
+    assert_eq!(area("2 3 4 5 6 1"), 3.0);
+    assert_eq!(area("6 5 4 3 2 1"), -3.0);
+    let by_hand = only_mesh(&format!("{l}f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 6\n"));
+    assert_eq!(only_mesh(&format!("{l}f 1 2 3 4 5 6\n")), by_hand);
+}
+
+#[test]
+fn smoothing_groups_are_smooth_and_others_have_edges() {
+    // A roof of two squares: flat normals are (0, 0, 1) and (-1, 0, 0).
+    let roof = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\n";
+    let faces = "f 1 2 3 4\nf 1 4 6 5\n";
+    let normals = |obj: &str| {
+        let mesh = only_mesh(obj);
+        let vertex = |index: &u32| &mesh.vertices[*index as usize];
+        let vertices = mesh.triangles.as_flattened().iter().map(vertex);
+        vertices.map(|vertex| (vertex.position, vertex.normal)).collect::<Vec<_>>()
+    };
+    let flat = normals(&format!("{roof}{faces}"));
+    assert!(flat.iter().all(|(_, normal)| *normal == Vec3::Z || *normal == Vec3::X));
+    for off in ["s off\n", "s 0\n", "s\n"] {
+        assert_eq!(normals(&format!("{roof}s 1\n{off}{faces}")), flat);
+    }
+    let half = Vec3::new(1.0, 0.0, 1.0).normalize();
+    for on in ["s 1\n", "s on\n", "S 4294967295\n"] {
+        for (position, normal) in normals(&format!("{roof}{on}{faces}")) {
+            let right = match (position.x > 0.0, position.z > 0.0) {
+                (true, _) => Vec3::Z,
+                (_, true) => Vec3::X,
+                _ => half,
+            };
+            assert!((normal - right).length() < 1e-6, "{position}: {normal}");
+        }
+    }
+    // Another group, and the file's own normals, keep the edge.
+    assert_eq!(normals(&format!("{roof}s 1\nf 1 2 3 4\ns 2\nf 1 4 6 5\n")), flat);
+    let own = format!("{roof}vn 0 1 0\ns 1\nf 1//1 2//1 3//1\n");
+    assert!(normals(&own).iter().all(|(_, normal)| *normal == Vec3::Y));
+    let shared = only_mesh(&format!("{roof}s 1\n{faces}"));
+    assert_eq!(shared.vertices.len(), 6);
+    // A sheet whose two sides cancel out keeps its triangles' normals.
+    assert!(
+        normals("v 0 0 0\nv 1 0 0\nv 0 1 0\ns 1\nf 1 2 3\nf 3 2 1\n")
+            .iter()
+            .all(|(_, normal)| normal.z.abs() == 1.0)
+    );
+}
+
+#[test]
+fn faces_of_one_material_are_one_mesh_wherever_they_are() {
+    let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\n";
+    let mtl: (&str, &[u8]) = ("m.mtl", b"newmtl a\nnewmtl b\n");
+    let load = |obj: &str| {
+        let obj = format!("{vertices}{obj}");
+        load_files(&[("model.obj", obj.as_bytes()), mtl], &Limits::DEFAULT).unwrap()
+    };
+    let mixed = load(&"usemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n".repeat(3));
+    let sorted =
+        load(&format!("usemtl a\n{}usemtl b\n{}", "f 1 2 3\n".repeat(3), "f 3 2 1\n".repeat(3)));
+    assert_eq!(mixed, sorted);
+    assert_eq!(mixed.meshes.len(), 2);
+    // Undefined materials are all the same grey; groups of one name are one group, objects are not.
+    let model = load("usemtl x\nf 1 2 3\nusemtl y\nf 1 2 3\nf 1 2 3\n");
+    assert_eq!((model.meshes.len(), model.meshes[0].triangles.len()), (1, 3));
+    let model = load("g a\nf 1 2 3\ng b\nf 1 2 3\ng a\nf 1 2 3\n");
+    let names: Vec<_> = model.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
+    assert_eq!((names, model.ambiguous.len()), (vec!["a", "b"], 0));
+    let model = load("o a\nf 1 2 3\nusemtl a\nf 1 2 3\no b\nf 1 2 3\no a\nusemtl b\nf 1 2 3\n");
+    let names: Vec<_> = model.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
+    assert_eq!((names, model.ambiguous), (vec!["a", "a", "b", "a"], vec!["a".to_owned()]));
+}
+
+#[test]
+fn a_model_far_from_the_origin_is_moved_or_warned_of() {
+    let near = "v 0.123 0.456 0\nv 0.823 0.456 0\nv 0.823 1.156 0.05\nf 1 2 3\n";
+    let far = near
+        .replace("v 0.", "v 388096.")
+        .replace(" 0.456", " 3948996.456")
+        .replace(" 1.", " 3948997.");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.obj");
+    std::fs::write(&path, &far).unwrap();
+    let kept = load(&path).unwrap();
+    assert!(
+        kept.warnings[0].contains("model.obj: is 7.000e-1 from end to end and reaches 3.949e6"),
+        "{:?}",
+        kept.warnings
+    );
+    let scene = crate::scene::Scene::open(&path).unwrap();
+    let [note] = &scene.model.warnings[..] else { panic!("{:?}", scene.model.warnings) };
+    assert!(
+        note.ends_with(
+            "it was moved by (-388096.5, -3948996.8, 0.0) in 64 bits, and the camera with it"
+        ),
+        "{note}"
+    );
+    let [moved, here] =
+        [&scene.model, &load_text(near).unwrap()].map(|model| positions(&model.meshes[0]));
+    for (moved, here) in moved.as_flattened().iter().zip(here.as_flattened()) {
+        assert!((*moved + Vec3::new(0.5, 0.8, 0.0) - *here).length() < 1e-6, "{moved} {here}");
+    }
+    assert!(scene.camera.target.length() < 1.0, "{:?}", scene.camera);
+}
+
+#[test]
+fn a_smoothing_group_is_smooth_where_positions_are_written_twice() {
+    let soup = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -0 0 0\nv 0 1 0\nv 0 0 1\n";
+    let mesh = only_mesh(&format!("{soup}s 1\nf 1 2 3\nf 4 5 6\n"));
+    let at_origin = mesh.vertices.iter().filter(|vertex| vertex.position == Vec3::ZERO);
+    let normals: Vec<_> = at_origin.map(|vertex| vertex.normal).collect();
+    assert_eq!(normals.len(), 2);
+    assert!(
+        normals
+            .iter()
+            .all(|normal| (*normal - Vec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-6)
+    );
+}
+
+#[test]
+fn a_face_that_crosses_itself_is_warned_of() {
+    let model = load_text("v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\n").unwrap();
+    let words = "model.obj:5: a face crosses itself; write triangles; some triangles stand for it (1 in all)";
+    assert_eq!(model.warnings, [words]);
 }

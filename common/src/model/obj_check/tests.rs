@@ -45,38 +45,96 @@ fn a_file_that_is_cut_off() {
     refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2", &format!("{face}{hint}"));
     let vertex = "model.obj:2: v has 2 numbers; x y z, x y z w or x y z r g b is right";
     refused("v 0 0 0\nv 1 0.", &format!("{vertex}{hint}"));
-    refused("v 0 0 0\nv 1 -", &format!("model.obj:2: \"-\" is not a number{hint}"));
+    refused("v 0 0 0\nv 1 -", &format!("model.obj:2: v has \"-\", which is not a number{hint}"));
 }
 
 #[test]
 fn numbers_that_are_wrong() {
-    line_refused("v 1,0 2 3", "\"1,0\" is not a number");
-    line_refused("v 1 nan 3", "\"nan\" is not a finite 32-bit number");
-    line_refused("vn inf 0 0", "\"inf\" is not a finite 32-bit number");
-    line_refused("vt 0 1e39", "\"1e39\" is not a finite 32-bit number");
-    line_refused("vn 0 1", "vn has 2 numbers; x y z is right");
-    line_refused("vn 0 1 0 0", "more than 3 numbers");
-    line_refused("vt # 0 0", "vt has no numbers; u, u v or u v w is right");
+    line_refused("v 1,0 2 3", "v has \"1,0\", which is not a number; write 1.0");
+    line_refused("v 1 nan 3", "v has \"nan\", which is not a finite 32-bit number");
+    line_refused("v 1 -1.#IND 3", "v has \"-1.#IND\", which is not a finite 32-bit number");
+    line_refused("v 1 2 # 3", "v has 2 numbers; x y z, x y z w or x y z r g b is right");
     line_refused("v 1 2 3 0", "a position divided by its w is not finite");
     line_refused("v 1 2 3e38 0.1", "a position divided by its w is not finite");
 }
 
 #[test]
+fn numbers_that_a_model_can_do_without() {
+    let flat = "the triangle's own stands for it";
+    let line = |what: &str, more: &str| format!("model.obj:7: {what}; {more}");
+    for normal in ["nan nan nan", "-1.#IND 0 1", "0 1.#QNAN 0", "inf 0 0", "0 -nan(ind) 0"] {
+        let model = load_text(&format!(
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn {normal}\nvn 1 0 0\nf 1//1 2//2 3//1\n"
+        ))
+        .unwrap();
+        let vertices = &model.meshes[0].vertices;
+        let normals: Vec<_> = vertices.iter().map(|vertex| vertex.normal).collect();
+        assert_eq!(normals, [Vec3::Z, Vec3::X, Vec3::Z], "{normal}");
+        assert!(model.warnings[0].starts_with("model.obj:4: vn has \""), "{:?}", model.warnings);
+        assert!(model.warnings[0].ends_with("; the triangle's own stands for it (1 in all)"));
+    }
+    lines_warned(
+        "vn 0 0 0\nvn 0 1",
+        &[&line("vn is 0 0 0, which has no direction", &format!("{flat} (2 in all)"))],
+    );
+    lines_warned(
+        "vn 0 1",
+        &[&line("vn has 2 numbers; x y z is right", &format!("{flat} (1 in all)"))],
+    );
+    lines_warned(
+        "vn 0 1 0 0",
+        &[&line("vn has 4 numbers; x y z is right", "the first 3 are taken (1 in all)")],
+    );
+    lines_warned("vn 0 1 0 # up", &[]);
+    lines_warned(
+        "vt 0 0 0 1",
+        &[&line("vt has 4 numbers; u, u v or u v w is right", "the first 2 are taken (1 in all)")],
+    );
+    let none = "the corner has none (1 in all)";
+    lines_warned("vt # 0 0", &[&line("vt has no numbers; u, u v or u v w is right", none)]);
+    lines_warned(
+        "vt 0 1e39",
+        &[&line("vt has \"1e39\", which is not a finite 32-bit number", none)],
+    );
+    let forms = "x y z, x y z w or x y z r g b is right";
+    lines_warned(
+        "v 1 2 3 4 5",
+        &[&line(&format!("v has 5 numbers; {forms}"), "the first 3 are taken (1 in all)")],
+    );
+    let color = "v has a colour, and colours of vertices are not shown; write a material or a texture; \
+                 the material's stands for it (2 in all)";
+    lines_warned("v 1 2 3 1 0 0\nv 1 2 3 0 1 0", &[&format!("model.obj:7: {color}")]);
+}
+
+#[test]
 fn faces_that_are_wrong() {
     let whole = " is out of range: the file has";
-    line_refused("f 1 2 99", &format!("face index 99{whole} 4 positions up to this line"));
-    line_refused("f 1 2 -5", &format!("face index -5{whole} 4 positions up to this line"));
-    line_refused("f 1 2 0", "face index 0 is out of range: indices start at 1, or at -1 backwards");
-    line_refused("f 1 2 3.5", "face index \"3.5\" is not a whole number");
-    line_refused("f 1 2 /1", "face index \"\" is not a whole number");
-    line_refused(
+    let left_out = |face: &str, what: &str| {
+        let line = format!("model.obj:7: {what}; the face is left out (1 in all)");
+        lines_warned(face, &[&line]);
+        // Without any other face, it is the reason why nothing is shown.
+        let alone = format!("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\n\n{face}\n");
+        assert_eq!(load_text(&alone).unwrap_err(), format!("model.obj:7: {what}"));
+    };
+    left_out("f 1 2 99", &format!("face index 99{whole} 4 positions up to this line"));
+    left_out("f 1 2 -5", &format!("face index -5{whole} 4 positions up to this line"));
+    left_out("f 1 2 0", "face index 0 is out of range: indices start at 1, or at -1 backwards");
+    left_out("f 1 2 3.5", "face index \"3.5\" is not a whole number");
+    left_out("f 1 2 /1", "face index \"\" is not a whole number");
+    left_out(
         "f 1/1/1/1 2 3",
         "the corner \"1/1/1/1\" has too many parts; v, v/vt, v//vn or v/vt/vn is right",
     );
-    line_refused("f 1 2 # 3", "a face has 2 corners; it needs at least 3");
-    line_refused("f", "a face has 0 corners; it needs at least 3");
+    left_out("f 1 2 # 3", "a face has 2 corners; it needs at least 3");
+    left_out("f", "a face has 0 corners; it needs at least 3");
     let huge = format!("f 1 2 {}", i64::MIN);
-    line_refused(&huge, &format!("face index {}{whole} 4 positions up to this line", i64::MIN));
+    left_out(&huge, &format!("face index {}{whole} 4 positions up to this line", i64::MIN));
+    lines_warned(
+        "f 1 2\nf 1 2 9\nf 3",
+        &[
+            "model.obj:7: a face has 2 corners; it needs at least 3; the face is left out (3 in all)",
+        ],
+    );
     line_refused(
         &format!("f{}", " 1".repeat(1025)),
         "a face has more than 1024 corners, the most that are read",
@@ -127,15 +185,38 @@ fn indices_that_a_model_can_do_without() {
     let normals: Vec<_> = vertices.iter().map(|vertex| vertex.normal).collect();
     assert_eq!(normals, [Vec3::X, Vec3::Z, Vec3::Z]);
     assert!(vertices.iter().all(|vertex| vertex.uv == glam::Vec2::ZERO));
-    line_refused("f 1//x 2 3", "normal index \"x\" is not a whole number");
+    lines_warned(
+        "f 1//x 2 3",
+        &[&format!("model.obj:7: normal index \"x\" is not a whole number; {flat} (1 in all)")],
+    );
 }
 
 #[test]
 fn statements_of_other_formats_are_passed_over() {
     let hint = "is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are";
-    let warning = format!("model.obj:7: \"group\" {hint}; the line is ignored (2 in all)");
-    lines_warned("group a b\ncurve 1 2\nF 1 2", &[&warning.replace("2 in", "3 in")]);
-    lines_warned("group\nxyz", &[&warning]);
+    let warning = |line: usize, word: &str, count: usize| {
+        format!("model.obj:{line}: \"{word}\" {hint}; the line is ignored ({count} in all)")
+    };
+    lines_warned(
+        "group a b\ncurve 1 2\ngroup",
+        &[&warning(7, "group", 2), &warning(8, "curve", 1)],
+    );
+    // Every word once, but not a thousand of them.
+    let words: String = (0..1000).map(|i| format!("word{i}\n")).collect();
+    let mut lines: Vec<_> = (0..8).map(|i| warning(7 + i, &format!("word{i}"), 1)).collect();
+    lines.push(warning(15, "word8", 992));
+    let lines: Vec<_> = lines.iter().map(String::as_str).collect();
+    lines_warned(&words, &lines);
+    lines_warned(
+        "s one",
+        &[
+            "model.obj:7: \"one\" is not a smoothing group, which is a whole number, or off; the line is ignored (1 in all)",
+        ],
+    );
+    let upper =
+        "V 0 0 0\nV 1 0 0\nV 0 1 0\nVT 0 0\nVn 0 0 1\nO a\nS off\nUSEMTL x\nF 1/1/1 2/1/1 3/1/1\n";
+    let lower = load_text(&upper.to_lowercase()).unwrap();
+    assert_eq!(load_text(upper).unwrap(), lower);
     let known = "l 1 2\np 1\ns off\nvp 0.5\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\nlod 2\n\
                  bevel on\nshadow_obj a.obj\nmg 1 0.5";
     lines_warned(known, &[]);
@@ -149,8 +230,8 @@ fn what_takes_too_much_memory_is_refused_with_all_that_it_would_take() {
     let load = |text: &str| load_files(&[("model.obj", text.as_bytes())], &limits);
     load(&polygon(1000).repeat(5)).unwrap();
     let refused = load(&polygon(1000).repeat(10_000)).unwrap_err();
-    let words = "model.obj: would take up to 6.3 GB of memory with its 10000000 corners of 10000 faces, \
-                 10000 positions and 0 meshes; at most 0.0 GB are taken";
+    let words = "model.obj: would take up to 6.2 GB of memory with its 10000000 corners of 10000 faces, \
+                 10000 positions and 1 meshes; at most 0.0 GB are taken";
     assert_eq!(refused, words);
     let libraries = Limits { libraries: 3, ..Limits::DEFAULT };
     let refused = load_files(&[("model.obj", b"mtllib a\nmtllib b b\nmtllib c\n")], &libraries);
@@ -165,7 +246,10 @@ fn more_than_the_limits() {
     let few = Limits { meshes: 1, obj_bytes: 100, ..Limits::DEFAULT };
     let most = ", the most that are read";
     for (obj, message) in [
-        ("o a\no b\n".into(), format!(":2: more than 1 objects and materials{most}")),
+        (
+            "v 0 0 0\no a\nf 1 1 1\no b\nf 1 1 1\n".into(),
+            format!(":5: more than 1 objects and materials{most}"),
+        ),
         (" ".repeat(101), ": is too large: 101 bytes, at most 100 are read".into()),
     ] {
         let error = load_files(&[("model.obj", obj.as_bytes())], &few).unwrap_err();
