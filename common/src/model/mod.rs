@@ -1,6 +1,9 @@
-//! Files from untrusted sources: OBJ models, MTL materials and PNG textures, read within limits, with a warning
+//! Files from untrusted sources: OBJ models, MTL materials, PNG and JPEG textures, read within limits, with a warning
 //! about faults that other loaders ignore.
 
+mod encoding;
+mod folder;
+mod glass;
 mod index;
 mod limits;
 mod mtl;
@@ -11,5 +14,6 @@ pub mod text;
 mod texture;
 mod warnings;
 
+pub use glass::turn_outwards;
 pub use obj::Model;
 pub use texture::Texture;

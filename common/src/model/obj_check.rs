@@ -10,14 +10,13 @@ use std::path::Path;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use glam::Vec3;
 
+use super::glass::turn_outwards;
 use super::index::{index, out_of_range, position};
 use super::limits::Limits;
 use super::mtl::{MaterialLibrary, material_name};
 use super::obj::{self, Model};
 use super::tally::Tally;
-use super::text::{
-    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, shown, uncommented,
-};
+use super::text::{Folder, Named, Statement, Text, name, numbers, quoted, shown, uncommented};
 use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
 use crate::scene::mesh::{LEAST, Mesh, REACH, around};
@@ -29,7 +28,7 @@ const PREAMBLE: &str = "mtllib all\nvn 0 0 0\nvt 0 1\n";
 /// The most corners of one face.
 const CORNERS: usize = 1024;
 
-/// Reads an OBJ file with its MTL files and PNG textures.
+/// Reads an OBJ file with its MTL files and textures.
 ///
 /// A new object, a new group in a file without objects, or another material starts a new mesh. Polygons become
 /// fans of triangles. A corner without a normal gets its triangle's: a cube must not be shaded like a ball, and
@@ -37,14 +36,14 @@ const CORNERS: usize = 1024;
 /// without them gets (0, 0). A face without material gets [`Material::default`]. Lines, points, curved surfaces
 /// and vertex colours are ignored.
 ///
-/// Real files are often incomplete. For a missing MTL file, a texture that is missing or outside the OBJ file's
-/// folder, an undefined material, a normal or texture coordinate out of range, or a statement of another format,
-/// the model is loaded without it, with a line in [`Model::warnings`].
+/// Real files are often incomplete. For an MTL file or a texture that is missing or outside the OBJ file's folder, an
+/// undefined material, a normal or texture coordinate out of range, or a statement of another format, the model is
+/// loaded without it, with a line in [`Model::warnings`].
 ///
 /// # Errors
 /// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it extends too
-/// far or is too small, needs too much memory, one of the files is too large, or an MTL file is outside the OBJ
-/// file's folder; the message is one line with file and line number.
+/// far or is too small, needs too much memory, or one of the files is too large; the message is one line with file and
+/// line number.
 pub fn load(path: &Path) -> Result<Model> {
     let model = load_within(path, &Limits::DEFAULT)?;
     let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
@@ -80,16 +79,23 @@ pub(crate) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
 
     let models = models.into_iter().filter(|model| !model.mesh.indices.is_empty());
     let default = materials.len();
-    let meshes: Vec<_> = models.map(|model| obj::mesh(model, default)).collect();
+    let mut meshes: Vec<_> = models.map(|model| obj::mesh(model, default)).collect();
     if meshes.iter().any(|mesh| mesh.material == default) {
         materials.push(Material::default());
     }
     let mut warnings = warnings.lines();
+    let bodies: Vec<bool> = meshes.iter().map(|mesh| is_glass(&materials[mesh.material])).collect();
+    warnings.extend(turn_outwards(&mut meshes, |mesh| bodies[mesh], &text.shown));
     if !meshes.iter().any(Mesh::has_area) {
         let what = "none of its triangles has an area, and so nothing of it is seen";
         warnings.push(format!("{}: {what}", text.shown));
     }
     Ok(Model { meshes, materials, textures, warnings })
+}
+
+/// True for the material of a body that refracts light.
+fn is_glass(material: &Material) -> bool {
+    matches!(material.illumination, 6 | 7)
 }
 
 /// The uses of a material that was undefined when it was first used.
@@ -183,26 +189,28 @@ impl<'a> Check<'a> {
             self.libraries <= most,
             statement.at(format!("more than {most} MTL files, the most that are looked for"))
         );
-        let mut missing = match folder.find("mtllib", rest, None) {
-            Ok(file) => return Ok(vec![file]),
-            Err(error) => vec![error],
-        };
-        let mut files = Vec::new();
-        if rest.contains(char::is_whitespace) {
-            let found = rest.split_whitespace().map(|part| folder.find("mtllib", part, None));
-            let (found, parts): (Vec<_>, Vec<_>) = found.partition(Result::is_ok);
-            files.extend(found.into_iter().flatten());
-            let parts: Vec<_> = parts.into_iter().filter_map(Result::err).collect();
+        let whole = folder.find("mtllib", rest, None);
+        let is_exact = |found: &Result<Named, _>| matches!(found, Ok(Named { instead: None, .. }));
+        let mut found = vec![whole];
+        if !is_exact(&found[0]) && rest.contains(char::is_whitespace) {
+            let parts = rest.split_whitespace().map(|part| folder.find("mtllib", part, None));
+            let parts: Vec<_> = parts.collect();
             // If none of several exists, it was perhaps one with spaces in its name.
-            if !files.is_empty() || parts.iter().any(|error| !is_missing(error)) {
-                missing = parts;
+            if parts.iter().any(is_exact) {
+                found = parts;
             }
         }
-        for error in missing {
-            if !is_missing(&error) {
-                return Err(statement.at(error));
+        let mut files = Vec::new();
+        for found in found {
+            match found {
+                Ok(file) => {
+                    if let Some(instead) = &file.instead {
+                        self.warnings.add(Kind::Elsewhere, statement, || instead);
+                    }
+                    files.push(file);
+                }
+                Err(error) => self.warnings.add(Kind::Library, statement, || error),
             }
-            self.warnings.add(Kind::Library, statement, || &error);
         }
         Ok(files)
     }
@@ -359,11 +367,6 @@ impl<'a> Check<'a> {
         self.plain.push('\n');
         Ok(corners)
     }
-}
-
-/// True if a file is missing: a model may do without it, but must not name materials outside its folder.
-fn is_missing(error: &anyhow::Error) -> bool {
-    matches!(error.downcast_ref(), Some(Unavailable::Missing(_)))
 }
 
 #[cfg(test)]

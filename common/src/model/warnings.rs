@@ -15,6 +15,10 @@ pub(crate) enum Kind {
     Material,
     /// A texture that is missing, outside the model's folder, or not a picture.
     Texture,
+    /// A file of the name beside the model, but not where the name leads.
+    Elsewhere,
+    /// A texture of which the end is missing.
+    Cut,
     /// An option or a form of a statement that is not supported.
     Option,
     /// A texture coordinate out of range.
@@ -33,6 +37,8 @@ impl Kind {
             Self::Definition => "the first definition stands",
             Self::Material => "a grey stands for it",
             Self::Texture => "the plain colour stands for it",
+            Self::Elsewhere => "the file of that name beside the model is taken",
+            Self::Cut => "what there is of it is shown",
             Self::Option => "it is ignored",
             Self::Coordinate => "the corner has none",
             Self::Normal => "the triangle's own stands for it",
