@@ -219,7 +219,7 @@ fn a_model_in_a_folder_below_is_found_however_the_path_goes() {
         let (folder, mut command) = command(text.as_bytes(), &[]);
         fs::create_dir(folder.path().join("sub")).unwrap();
         fs::write(folder.path().join("sub/car.obj"), cube).unwrap();
-        let output = command.output().unwrap();
+        let output = command.arg("--validate").output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && said.is_empty() != warned, "{path}: {said}");
         let words = "s.toml:2: model names \"/home/somebody/sub/car.obj\", outside the scene file's folder; \
@@ -237,7 +237,7 @@ fn a_planet_is_told_of_that_things_on_it_lose_their_shadows() {
         let ball = "[[sphere]]\ncenter = [0, 1, 0]\nradius = 1\nmaterial = \"a\"\n";
         let (_folder, mut command) =
             command(format!("{HEAD}{PAINT}{planet}{ball}").as_bytes(), &[]);
-        let output = command.output().unwrap();
+        let output = command.arg("--validate").output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && said.is_empty() != warned, "{said}");
         let words = "s.toml:8: rays that leave this sphere start up to 2.7 above it";
@@ -260,7 +260,7 @@ fn glass_whose_faces_point_inwards_is_turned_around() {
     ] {
         let model = format!("{tetrahedron}{faces}");
         let (_folder, mut command) = command(scene.as_bytes(), &[("m.obj", &model)]);
-        let output = command.output().unwrap();
+        let output = command.arg("--validate").output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && said.is_empty() != warned, "{said}");
         let words =
