@@ -4,10 +4,13 @@ use super::super::obj::tests::{TRIANGLE, load_files};
 use super::super::texture::tests::png;
 use crate::model::limits::Limits;
 
+/// A triangle with texture coordinates.
+const TEXTURED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+
 /// The name of the texture found and the warnings, for a model whose MTL file `mtl` names `map`; the files are
 /// textures.
 fn found(mtl: &str, map: &str, files: &[&str]) -> (Option<String>, Vec<String>) {
-    let obj = format!("mtllib {mtl}\nusemtl a\n{TRIANGLE}");
+    let obj = format!("mtllib {mtl}\nusemtl a\n{TEXTURED}");
     let text = format!("newmtl a\nmap_Kd {map}\n");
     let texel = png(&[[1, 2, 3, 4]], 1);
     let mut all = vec![("model.obj", obj.as_bytes()), (mtl, text.as_bytes())];
@@ -117,7 +120,7 @@ fn a_file_whose_name_is_of_another_encoding_is_found_and_shown() {
     use std::os::unix::ffi::OsStrExt;
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &[u8]| folder.path().join(std::ffi::OsStr::from_bytes(name));
-    std::fs::write(at(b"model.obj"), format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}")).unwrap();
+    std::fs::write(at(b"model.obj"), format!("mtllib m.mtl\nusemtl a\n{TEXTURED}")).unwrap();
     std::fs::write(at(b"m.mtl"), b"newmtl a\nmap_Kd caf\xe9.png\n").unwrap();
     std::fs::write(at(b"caf\xe9.png"), png(&[[1, 2, 3, 4]], 1)).unwrap();
     let load = || super::super::obj::load(&at(b"model.obj")).unwrap();

@@ -182,7 +182,8 @@ fn jpeg_files_that_are_wrong() {
         warned("map_Kd t.png", &file, &format!("the texture t.png: {words}"));
     }
     // What there is of it is shown.
-    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    let textured = TRIANGLE.replace("f 1 2 3", "vt 0 0\nf 1/1 2/1 3/1");
+    let obj = format!("mtllib m.mtl\nusemtl a\n{textured}");
     let mtl: &[u8] = b"newmtl a\nmap_Kd t.jpg\n";
     let cut = &good[..good.len() - 9];
     let files = [("model.obj", obj.as_bytes()), ("m.mtl", mtl), ("t.jpg", cut)];
