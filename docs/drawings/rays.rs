@@ -218,14 +218,7 @@ pub fn acne_and_leak() -> String {
             22.0,
             RED,
         ),
-        (
-            296.0,
-            "just above",
-            "No rounding puts the start",
-            "below the surface.",
-            -10.0,
-            BROWN,
-        ),
+        (296.0, "just above", "No rounding puts the start", "below the surface.", -10.0, BROWN),
         (
             568.0,
             "too high: a leak",

@@ -13,6 +13,11 @@ pub fn is_glass(material: &Material) -> bool {
     Glass::from(material).kind != GlassKind::None as u32
 }
 
+/// Tests whether a material is that of a body, which has an inside.
+pub fn is_body(material: &Material) -> bool {
+    Glass::from(material).kind == GlassKind::Thick as u32
+}
+
 impl Composition {
     /// The glass of each material, if any material in use is glass; shaders read no others.
     pub fn glasses_to_read(&self) -> Vec<Glass> {
@@ -26,8 +31,7 @@ impl Composition {
     /// The bodies of glass that a point is in: the lowest numbers of their materials first, and then air.
     pub fn media_at(&self, point: DVec3) -> [u32; 4] {
         let materials = &self.scene.model.materials;
-        let is_body =
-            |number: u32| Glass::from(&materials[number as usize]).kind == GlassKind::Thick as u32;
+        let is_body = |number: u32| is_body(&materials[number as usize]);
         let is_in = |(low, high): (Vec3, Vec3)| {
             point.cmpge(low.as_dvec3()).all() && point.cmple(high.as_dvec3()).all()
         };

@@ -29,7 +29,7 @@ pub use emitters::{Emitter, EmitterAddresses, Emitters};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
 pub use finish::{Finish, Pattern};
-pub use glass::{Glass, GlassKind, is_glass};
+pub use glass::{Glass, GlassKind, is_body, is_glass};
 pub use lamps::Lamps;
 pub use lens::{Lens, ThinLens};
 pub use shapes::{Box, Face, Solid, Sphere};

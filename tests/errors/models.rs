@@ -111,9 +111,10 @@ fn materials_that_are_wrong() {
     ] {
         files_warned(&[("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &[words]);
     }
-    let mtllib = "mtllib ../m.mtl\n";
-    let outside = ["model.obj:1: mtllib names \"../m.mtl\", outside the OBJ file's folder"];
-    files_refused(&[("model.obj", mtllib.as_bytes())], &outside);
+    let mtllib = format!("mtllib ../m.mtl\n{TRIANGLE}");
+    let outside =
+        ["model.obj:1: mtllib names \"../m.mtl\", outside the OBJ file's folder; copy it"];
+    files_warned(&[("model.obj", mtllib.as_bytes())], &outside);
 }
 
 #[test]
@@ -211,8 +212,15 @@ fn textures_that_a_model_can_do_without() {
         files_warned(&files, &[line]);
     };
     let texture = "m.mtl:2: the texture t.png: ";
-    warned(b"\xff\xd8\xff\xe0 a JPEG file", &format!("{texture}is not a PNG file"));
-    warned(b"", &format!("{texture}is not a PNG file"));
+    warned(
+        b"\xff\xd8\xff\xe0 a JPEG file",
+        &format!("{texture}cannot be decoded, it is damaged or"),
+    );
+    warned(
+        b"GIF89a",
+        &format!("{texture}is a GIF file, which is not read; convert it to PNG or JPEG"),
+    );
+    warned(b"", &format!("{texture}is empty"));
     for cut in [20, png.len() / 2, png.len() - 20] {
         warned(&png[..cut], &format!("{texture}cannot be decoded, it is damaged or cut off"));
     }

@@ -45,14 +45,26 @@ fn files_that_are_no_scene() {
     file_refused("", "s.toml:1: a scene file has the key `version = 1`; no other version is known");
     file_refused("version = 2\n", "s.toml:1: a scene file has the key `version = 1`");
     file_refused("\nversion = \"1\"\n", "s.toml:2: a scene file has the key `version = 1`");
-    file_refused("version = 1\n", "s.toml:1: missing field `camera`");
+    file_refused("version = 1\n", "s.toml:1: the table [camera] is missing");
     file_refused(&HEAD[..HEAD.len() - 30], "s.toml:4: ");
-    file_refused("version = 1\nversion = 1\n", "s.toml:2: duplicate key");
+    file_refused(
+        "version = 1\nversion = 1\n",
+        "s.toml:2: `version` is here for the second time; take one",
+    );
     let deep = format!("\n\na{} = 1\n", ".a".repeat(300));
     table_refused(&deep, "s.toml:8: this stands in more than 16 tables and lists");
     table_refused(&format!("x = {}", "[".repeat(300)), "s.toml:6: this stands in more than 16");
-    let (_folder, command) = command(b"version = 1\n# \xff\xfe\n", &[]);
-    refused_by(command, 1, &["s.toml:2: this is no UTF-8 text; a scene file is TOML"]);
+    for (text, words) in [
+        (
+            &b"version = 1\n# caf\xe9\n"[..],
+            "s.toml:2: the byte 0xE9 is not UTF-8, but perhaps Latin-1",
+        ),
+        (b"\xff\xfev\0", "s.toml:1: this is UTF-16 text; save it as UTF-8"),
+        (b"version = 1\n\0", "s.toml:2: holds a zero byte: this is a binary file, not text"),
+    ] {
+        let (_folder, command) = self::command(text, &[]);
+        refused_by(command, 1, &[words]);
+    }
     let mut command = run::command("25_scene_effects");
     command.args(["--headless", "--scene", "gone.toml"]);
     refused_by(command, 1, &["gone.toml: there is no such file"]);
@@ -93,23 +105,168 @@ fn values_of_another_type() {
     let camera = |line: &str| HEAD.replace("eye = [0, 1, 5]", line);
     file_refused(&camera("eye = [0, \"1\", 5]"), "s.toml:3: \"1\" is no number");
     file_refused(&camera("eye = [0, 1e38, 5]"), "s.toml:3: 1e38 is not a number from -1000000");
-    file_refused(
-        "version = 1\ncamera = 3\n",
-        "s.toml:2: invalid type: integer `3`, expected a table, [camera]",
-    );
+    file_refused("version = 1\ncamera = 3\n", "s.toml:2: write a table here: [camera]");
     let paint = |keys: &str| format!("{PAINT}{keys}");
     table_refused(&paint("pattern = 3\n"), "s.toml:8: 3 is no pattern; write \"marble\"");
     table_refused(&paint("color = 0.5\n"), "s.toml:8: 0.5 is no list of 3 numbers, such as");
     table_refused(&paint("shininess = [1]\n"), "s.toml:8: a list is not a number from 0 to 100000");
-    table_refused(
-        &paint("mirror = 1\n"),
-        "s.toml:8: invalid type: integer `1`, expected true or false",
-    );
+    table_refused(&paint("mirror = 1\n"), "s.toml:8: write true or false here");
     table_refused("[picture]\nsamples = 1.5\n", "s.toml:7: 1.5 is not a whole number from 1 to 64");
     file_refused(
         &HEAD.replace("[camera]", "light = 3\n[camera]"),
-        "s.toml:2: invalid type: integer `3`, expected tables",
+        "s.toml:2: there may be several of these tables: write each under",
     );
+}
+
+#[test]
+fn lines_that_are_no_toml_say_what_to_write() {
+    let ball = |radius: &str| {
+        format!("{PAINT}[[sphere]]\ncenter = [0, 0, 0]\nmaterial = \"a\"\nradius = {radius}\n")
+    };
+    let eye = |list: &str| HEAD.replace("[0, 1, 5]", list);
+    let model = |path: &str| HEAD.replace("[camera]", &format!("model = \"{path}\"\n[camera]"));
+    let slash = "a `\\` in a text begins an escape";
+    let list = "a list is [0, 1, 5], with commas between its values and a `]` at its end";
+    let number = "a number is 7, 0.5 or 1e6";
+    let is_none = "this is no number; a number is 7, 0.5 or 1e6, without a unit";
+    let quotes = "a text stands in quotes: \"red\"";
+    let line = "a line is `key = value`, `[table]` or `[[table]]`; a comment begins with `#`";
+    for (text, words) in [
+        (model("sub\\car.obj"), format!("s.toml:2: {slash}; write `/` between folders")),
+        (model("C:\\Users\\car.obj"), format!("s.toml:2: {slash}; write `/` between folders")),
+        // Each of these is an escape, of a tab and of a line's end.
+        (model("sub\\table\\new.obj"), format!("{slash}: write `/` between folders")),
+        (
+            HEAD.to_owned() + &ball("1,5"),
+            "s.toml:11: a number has a point, not a comma: write 1.5".to_owned(),
+        ),
+        (HEAD.to_owned() + &ball("-0,25 # small"), "a point, not a comma: write -0.25".to_owned()),
+        (HEAD.to_owned() + &ball(".5"), format!("s.toml:11: {number}")),
+        (HEAD.to_owned() + &ball("5."), format!("s.toml:11: {number}")),
+        (HEAD.to_owned() + &ball("01"), format!("s.toml:11: {number}")),
+        (HEAD.to_owned() + &ball("2m"), format!("s.toml:11: {is_none}")),
+        (HEAD.to_owned() + &ball("1/2"), format!("s.toml:11: {is_none}")),
+        (HEAD.to_owned() + &ball("big"), format!("s.toml:11: {quotes}")),
+        (
+            HEAD.to_owned() + &ball("99999999999999999999"),
+            "the number has too many digits".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + &ball("1") + "sky = 0.5\n",
+            "s.toml:12: `sky` is a key of the whole file; write it above the first [table]"
+                .to_owned(),
+        ),
+        (
+            HEAD.to_owned() + "picture = 3\n",
+            "s.toml:6: `picture` is a table of its own; write it as [picture]".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + "[sphere]\n",
+            "there may be several of these tables: write each".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + "[camera]\n",
+            "s.toml:6: `camera` is here for the second time".to_owned(),
+        ),
+        (
+            HEAD.replace("[camera]", "[[camera]]"),
+            "s.toml:2: there is one table of this name: write [camera]".to_owned(),
+        ),
+        (HEAD.to_owned() + "[picture\n", "s.toml:6: a table's name stands in brackets".to_owned()),
+        (HEAD.to_owned() + "sky =\n", "s.toml:6: the value is missing; write it after".to_owned()),
+        (HEAD.to_owned() + "sky: 3\n", format!("s.toml:6: {line}")),
+        (format!("// a scene\n{HEAD}"), format!("s.toml:1: {line}")),
+        ("{ \"version\": 1 }".to_owned(), format!("s.toml:1: {line}")),
+        (
+            HEAD.to_owned() + "lens = { diameter 0.1 }\n",
+            "s.toml:6: a table within a line is".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + "[[material]]\nname = \"a\n",
+            "s.toml:7: a text ends on its line".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + "[[material]]\nname = “a”\n",
+            "s.toml:7: write straight quotes".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + "[[material]]\nname = 3\n",
+            "s.toml:7: write a text in quotes here".to_owned(),
+        ),
+        (
+            HEAD.to_owned() + PAINT + "mirror = True\n",
+            "s.toml:8: write true or false, in".to_owned(),
+        ),
+        (eye("[0 1 5]"), format!("s.toml:3: {list}")),
+        (eye("[0; 1; 5]"), format!("s.toml:3: {list}")),
+        (eye("(0, 1, 5)"), format!("s.toml:3: {list}")),
+        (eye("[0, 1, 5"), list.to_owned()),
+        (HEAD.replace('\n', "\r"), "s.toml:1: its lines end in CR alone".to_owned()),
+    ] {
+        file_refused(&text, &words);
+    }
+}
+
+#[test]
+fn a_model_in_a_folder_below_is_found_however_the_path_goes() {
+    let cube = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (path, warned) in [
+        ("./sub/../sub/car.obj", false),
+        ("gone/../sub/car.obj", false),
+        ("/home/somebody/sub/car.obj", true),
+    ] {
+        let text = HEAD.replace("[camera]", &format!("model = \"{path}\"\n[camera]"));
+        let (folder, mut command) = command(text.as_bytes(), &[]);
+        fs::create_dir(folder.path().join("sub")).unwrap();
+        fs::write(folder.path().join("sub/car.obj"), cube).unwrap();
+        let output = command.arg("--validate").output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && said.is_empty() != warned, "{path}: {said}");
+        let words = "s.toml:2: model names \"/home/somebody/sub/car.obj\", outside the scene file's folder; \
+                     write \"sub/car.obj\"; the file of that name beside it is taken";
+        assert!(!warned || said.contains(words), "{said}");
+    }
+}
+
+#[test]
+fn a_planet_is_told_of_that_things_on_it_lose_their_shadows() {
+    for (radius, warned) in [("1000000", true), ("1000", false)] {
+        let planet = format!(
+            "[[sphere]]\ncenter = [0, -{radius}, 0]\nradius = {radius}\nmaterial = \"a\"\n"
+        );
+        let ball = "[[sphere]]\ncenter = [0, 1, 0]\nradius = 1\nmaterial = \"a\"\n";
+        let (_folder, mut command) =
+            command(format!("{HEAD}{PAINT}{planet}{ball}").as_bytes(), &[]);
+        let output = command.arg("--validate").output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && said.is_empty() != warned, "{said}");
+        let words = "s.toml:8: rays that leave this sphere start up to 2.7 above it";
+        assert!(
+            !warned || said.contains(words) && said.contains("at most 46000 is right"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn glass_whose_faces_point_inwards_is_turned_around() {
+    let tetrahedron = "o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    let scene = HEAD.replace("[camera]", "model = \"m.obj\"\n[camera]")
+        + "[[piece]]\nmesh = \"body\"\nat = [0, 0, 0]\nmaterial = \"g\"\n[[material]]\nname = \"g\"\n\
+           glass = \"thick\"\n";
+    for (faces, warned) in [
+        ("f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", false),
+        ("f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", true),
+    ] {
+        let model = format!("{tetrahedron}{faces}");
+        let (_folder, mut command) = command(scene.as_bytes(), &[("m.obj", &model)]);
+        let output = command.arg("--validate").output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && said.is_empty() != warned, "{said}");
+        let words =
+            "the faces of \"body\", a closed body of glass, point inwards; they are turned around";
+        assert!(!warned || said.contains(words), "{said}");
+    }
 }
 
 #[test]
@@ -135,7 +292,7 @@ fn bounces_glass_and_lenses_that_are_wrong() {
     table_refused(&glass("lines = 2\n"), "s.toml:6: glass shows neither a `pattern` nor `lines`");
     let lens = |keys: &str| format!("{HEAD}lens = {{ {keys} }}\n");
     file_refused(&lens("diameter = 2"), "s.toml:6: 2.0 is not a number from 0 to 1");
-    file_refused(&lens("focus = 3"), "s.toml:6: missing field `diameter`");
+    file_refused(&lens("focus = 3"), "s.toml:6: the key `diameter` is missing in this table");
     file_refused(
         &lens("diameter = 0.1, focus = 0"),
         "s.toml:6: 0.0 is not a number from 0.015625 to 1024",
@@ -148,11 +305,11 @@ fn bounces_glass_and_lenses_that_are_wrong() {
         &lens("diameter = 0.1, blades = 13"),
         "s.toml:6: 13 is not a whole number from 0 to 12",
     );
-    file_refused(&lens("diameter = 0.1, f = 2"), "s.toml:6: unknown field `f`, expected one of");
     file_refused(
-        &format!("{HEAD}lens = 2\n"),
-        "s.toml:6: invalid type: integer `2`, expected a table",
+        &lens("diameter = 0.1, f = 2"),
+        "s.toml:6: there is no key `f` here; there is diameter,",
     );
+    file_refused(&format!("{HEAD}lens = 2\n"), "s.toml:6: write a table here: { diameter = 0.1 }");
 }
 
 #[test]
@@ -167,13 +324,16 @@ fn another_chapter_says_who_reads_scene_files() {
 
 #[test]
 fn keys_and_values_that_are_wrong() {
-    table_refused("[fog]\n", "s.toml:6: unknown field `fog`, expected one of `version`");
+    table_refused("[fog]\n", "s.toml:6: there is no key `fog` here; there is version, model");
     table_refused(
         "[plane]\nslope = 1\n",
-        "s.toml:7: unknown field `slope`, expected one of `normal`",
+        "s.toml:7: there is no key `slope` here; there is normal, distance",
     );
     let camera = |line: &str| HEAD.replace("eye = [0, 1, 5]", line);
-    file_refused(&camera("eye = [0, 1, 5]\nroll = 3"), "s.toml:4: unknown field `roll`");
+    file_refused(
+        &camera("eye = [0, 1, 5]\nroll = 3"),
+        "s.toml:4: there is no key `roll` here; there is eye, target",
+    );
     file_refused(
         &camera("eye = [0, nan, 5]"),
         "s.toml:3: NaN is not a number from -1000000 to 1000000",
@@ -331,7 +491,10 @@ fn pieces_and_models_that_are_wrong() {
     file_refused(&model("gone.obj"), "s.toml:2: model names \"gone.obj\", which is not there");
     file_refused(&model("."), "s.toml:2: model names \".\", which is no file");
     for outside in ["../m.obj", "/etc/passwd", "a/../../m.obj", "C:\\m.obj"] {
-        file_refused(&model(outside), "outside the scene file's folder; copy it into the folder");
+        file_refused(
+            &model(&outside.replace('\\', "/")),
+            "outside the scene file's folder; copy it",
+        );
     }
     for (text, words) in [
         ("v 0 nan 0\n", "m.obj:1: v has \"nan\", which is not a finite 32-bit number"),

@@ -54,6 +54,14 @@ fn what_a_compiler_cannot_be_shown_has_a_place_too() {
     let zero = folder(file, |text| format!("{text}// \0\n"));
     let place = format!("{file}:{}: holds a zero byte", line_count(file) + 1);
     shaders_refused(zero.path(), &[&place]);
+    let place = format!("{file}:{}: the byte 0xE9 is not UTF-8", line_count(file) + 1);
+    let latin = run::copy_of_shaders();
+    let path = latin.path().join(file);
+    let text = fs::read(&path).unwrap();
+    fs::write(&path, [&text[..], b"// caf\xe9\n"].concat()).unwrap();
+    shaders_refused(latin.path(), &[&place]);
+    fs::write(&path, [b"\xff\xfe", &text[..]].concat()).unwrap();
+    shaders_refused(latin.path(), &[&format!("{file}:1: this is UTF-16 text; save it as UTF-8")]);
     let old = folder(file, |text| text.replace("#version 460", "#version 110"));
     shaders_refused(old.path(), &["shader '02_basic/camera.rgen': the profile is invalid"]);
 }
@@ -82,6 +90,16 @@ fn an_include_without_its_extension() {
         folder.path(),
         &[&format!("{file}:2: #include takes the line `{}`", extension.trim())],
     );
+}
+
+#[test]
+fn a_mark_at_the_beginning_is_passed_over() {
+    let marked = |text: String| format!("\u{feff}{text}");
+    for file in ["02_basic/camera.rgen", "02_basic/push.glsl"] {
+        let folder = folder(file, marked);
+        let output = sample().env("SHADERS", folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
 }
 
 #[test]

@@ -174,8 +174,8 @@ fn a_message_of_two_lines_is_found() {
 #[test]
 fn a_message_that_names_no_file_is_found() {
     let fault = found_in(|path| {
-        if refused_for(path, "outside the OBJ file's folder") {
-            bail!("a file lies outside")
+        if refused_for(path, "is out of range") {
+            bail!("an index is out of range")
         } else {
             read(path)
         }

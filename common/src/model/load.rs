@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Result, ensure};
 use glam::Vec3;
 
+use super::glass::turn_outwards;
 use super::limits::Limits;
 use super::obj::Model;
 use super::obj_check::Check;
@@ -29,8 +30,7 @@ use crate::scene::mesh::{LEAST, Mesh, REACH, around};
 ///
 /// # Errors
 /// If the file is missing or has no faces, if a position is wrong, if the model extends too far or is too small,
-/// needs too much memory, one of the files is too large, or an MTL file is outside the OBJ file's folder; the
-/// message is one line with file and line number.
+/// needs too much memory, or one of the files is too large; the message is one line with file and line number.
 pub fn load(path: &Path) -> Result<Model> {
     checked(path, load_within(path, &Limits::DEFAULT, Place::AsWritten)?)
 }
@@ -112,13 +112,20 @@ pub(crate) fn load_within(path: &Path, limits: &Limits, place: Place) -> Result<
     }
     let ambiguous = geometry.ambiguous();
     let parts = std::mem::take(&mut geometry.parts);
-    let meshes: Vec<_> =
+    let mut meshes: Vec<_> =
         parts.into_iter().zip(numbers).map(|(part, number)| geometry.mesh(part, number)).collect();
     let mut warnings = warnings.lines();
+    let bodies: Vec<bool> = meshes.iter().map(|mesh| is_glass(&materials[mesh.material])).collect();
+    warnings.extend(turn_outwards(&mut meshes, |mesh| bodies[mesh], &shown));
     warnings.extend(far.map(|what| format!("{shown}: {what}")));
     if !meshes.iter().any(Mesh::has_area) {
         let what = "none of its triangles has an area, and so nothing of it is seen";
         warnings.push(format!("{shown}: {what}"));
     }
     Ok(Model { meshes, materials, textures, warnings, ambiguous })
+}
+
+/// True for the material of a body that refracts light.
+fn is_glass(material: &Material) -> bool {
+    matches!(material.illumination, 6 | 7)
 }

@@ -1,8 +1,11 @@
-//! Files from untrusted sources: OBJ models, MTL materials and PNG textures, read within limits, with a warning
+//! Files from untrusted sources: OBJ models, MTL materials, PNG and JPEG textures, read within limits, with a warning
 //! about faults that other loaders ignore.
 
 mod elements;
+mod encoding;
 mod face;
+mod folder;
+mod glass;
 mod index;
 mod limits;
 mod load;
@@ -21,5 +24,6 @@ mod texture;
 mod unseen;
 mod warnings;
 
+pub use glass::turn_outwards;
 pub use obj::Model;
 pub use texture::Texture;

@@ -103,7 +103,14 @@ impl MaterialLibrary {
         if !self.read.insert(file.path.clone()) {
             return Ok(());
         }
-        let text = Text::read(&file.path, file.shown.clone(), limits.mtl_bytes)?;
+        let text = match Text::read(&file.path, file.shown.clone(), limits.mtl_bytes) {
+            Ok(text) => text,
+            Err(error) if !error.is::<Unavailable>() => return Err(error),
+            Err(error) => {
+                warnings.add_many(Kind::Library, 1, || error.to_string());
+                return Ok(());
+            }
+        };
         self.bytes += text.size() as u64;
         ensure!(
             self.bytes <= limits.mtl_bytes,
@@ -202,12 +209,15 @@ impl MaterialLibrary {
             _ => {
                 let named = after_options(rest, &mut |what: &str| value.pass_over(what));
                 let image = match folder.find(keyword, named, Some(file)) {
-                    Err(error) if error.is::<Unavailable>() => {
+                    Ok(image) => image,
+                    Err(error) => {
                         value.warnings.add(Kind::Texture, statement, || error);
                         return Ok(());
                     }
-                    image => image?,
                 };
+                if let Some(instead) = &image.instead {
+                    value.warnings.add(Kind::Elsewhere, statement, || instead);
+                }
                 let (slot, role) = match keyword {
                     "map_Kd" => (&mut material.base_texture, Role::Color),
                     _ => (&mut material.opacity_texture, Role::Opacity),

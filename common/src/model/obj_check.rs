@@ -12,7 +12,7 @@ use super::number::words;
 use super::parts::{Geometry, Parts};
 use super::polygon::Triangulator;
 use super::tally::Tally;
-use super::text::{Folder, Named, Statement, Text, Unavailable, name, quoted};
+use super::text::{Folder, Named, Statement, Text, name, quoted};
 use super::warnings::{Kind, Warnings};
 
 /// Keywords of statements that are not shown.
@@ -149,26 +149,28 @@ impl<'a> Check<'a> {
             self.libraries <= most,
             statement.at(format!("more than {most} MTL files, the most that are looked for"))
         );
-        let mut missing = match folder.find("mtllib", rest, None) {
-            Ok(file) => return Ok(vec![file]),
-            Err(error) => vec![error],
-        };
-        let mut files = Vec::new();
-        if rest.contains(char::is_whitespace) {
-            let found = rest.split_whitespace().map(|part| folder.find("mtllib", part, None));
-            let (found, parts): (Vec<_>, Vec<_>) = found.partition(Result::is_ok);
-            files.extend(found.into_iter().flatten());
-            let parts: Vec<_> = parts.into_iter().filter_map(Result::err).collect();
+        let whole = folder.find("mtllib", rest, None);
+        let is_exact = |found: &Result<Named, _>| matches!(found, Ok(Named { instead: None, .. }));
+        let mut found = vec![whole];
+        if !is_exact(&found[0]) && rest.contains(char::is_whitespace) {
+            let parts = rest.split_whitespace().map(|part| folder.find("mtllib", part, None));
+            let parts: Vec<_> = parts.collect();
             // If none of several exists, it was perhaps one with spaces in its name.
-            if !files.is_empty() || parts.iter().any(|error| !is_missing(error)) {
-                missing = parts;
+            if parts.iter().any(is_exact) {
+                found = parts;
             }
         }
-        for error in missing {
-            if !is_missing(&error) {
-                return Err(statement.at(error));
+        let mut files = Vec::new();
+        for found in found {
+            match found {
+                Ok(file) => {
+                    if let Some(instead) = &file.instead {
+                        self.warnings.add(Kind::Elsewhere, statement, || instead);
+                    }
+                    files.push(file);
+                }
+                Err(error) => self.warnings.add(Kind::Library, statement, || error),
             }
-            self.warnings.add(Kind::Library, statement, || &error);
         }
         Ok(files)
     }
@@ -296,11 +298,6 @@ impl<'a> Check<'a> {
         );
         Ok(())
     }
-}
-
-/// True if a file is missing: a model may do without it, but must not name materials outside its folder.
-fn is_missing(error: &Error) -> bool {
-    matches!(error.downcast_ref(), Some(Unavailable::Missing(_)))
 }
 
 #[cfg(test)]

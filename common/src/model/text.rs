@@ -1,17 +1,20 @@
 //! The text of a model's files, which are untrusted.
 //!
-//! Text is read within limits, line by line, so that every fault has a line number; files are opened only inside
-//! the folder of the OBJ file.
+//! Text is read within limits, line by line, so that every fault has a line number.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use anyhow::{Result, anyhow, bail, ensure};
+use anyhow::{Result, anyhow, ensure};
+
+use super::encoding::{check, is_foreign, letters};
+pub use super::encoding::{quoted, shown, utf8};
+pub use super::folder::{Folder, Named, Unavailable};
 
 /// Bytes of one statement; a polygon of 1024 corners needs about half.
 const STATEMENT_BYTES: usize = 64 << 10;
@@ -37,10 +40,7 @@ impl Text {
             .take(limit)
             .read_to_end(&mut bytes)
             .map_err(|error| anyhow!("{shown}: cannot be read: {error}"))?;
-        if let Some(zero) = bytes.iter().position(|&byte| byte == 0) {
-            let line = 1 + bytes[..zero].iter().filter(|&&byte| byte == b'\n').count();
-            bail!("{shown}:{line}: holds a zero byte: this is a binary file, not text");
-        }
+        check(&bytes, &shown).map_err(|error| anyhow!(Unavailable(error.to_string())))?;
         Ok(Self { shown, bytes })
     }
 
@@ -86,8 +86,8 @@ pub fn note_opened<'a>(paths: impl IntoIterator<Item = &'a Path>) {
 /// If it is missing, larger, or not a regular file.
 pub fn regular(path: &Path, shown: &str, limit: u64) -> Result<File> {
     let failed = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => anyhow!("{shown}: there is no such file"),
-        _ => anyhow!("{shown}: cannot be read: {error}"),
+        ErrorKind::NotFound => anyhow!(Unavailable(format!("{shown}: there is no such file"))),
+        _ => anyhow!(Unavailable(format!("{shown}: cannot be read: {error}"))),
     };
     let metadata = std::fs::metadata(path).map_err(failed)?;
     ensure!(
@@ -123,8 +123,12 @@ impl<'a> Iterator for Statements<'a> {
     type Item = Statement<'a>;
 
     fn next(&mut self) -> Option<Statement<'a>> {
-        // A comment may end in a backslash, for example a Windows folder: it does not continue the line.
-        let continued = |line: &[u8]| line.ends_with(b"\\") && !line.contains(&b'#');
+        // A comment may end in a backslash, for example a Windows folder, and so may a letter of Shift-JIS: neither
+        // continues the line.
+        let continued = |line: &[u8]| {
+            let is_letter = || ends_in_letter(&letters(line));
+            line.ends_with(b"\\") && !line.contains(&b'#') && !is_letter()
+        };
         let line = loop {
             if self.rest.is_empty() {
                 return None;
@@ -143,8 +147,8 @@ impl<'a> Iterator for Statements<'a> {
             text.extend(self.physical());
         }
         let text = match text {
-            Cow::Borrowed(line) => String::from_utf8_lossy(line),
-            Cow::Owned(lines) => String::from_utf8_lossy(&lines).into_owned().into(),
+            Cow::Borrowed(line) => letters(line),
+            Cow::Owned(lines) => letters(&lines).into_owned().into(),
         };
         let cut = self.open_end && self.rest.is_empty();
         Some(Statement { shown: self.shown, line: number, text, cut })
@@ -165,7 +169,7 @@ impl Statement<'_> {
         format!("{}:{}", self.shown, self.line)
     }
 
-    /// The keyword and the rest, without white space around it.
+    /// The keyword and the rest, without white space around it and without a comment.
     ///
     /// # Errors
     /// If the statement is too long.
@@ -175,9 +179,12 @@ impl Statement<'_> {
             length <= STATEMENT_BYTES,
             "the line is too long: {length} bytes, at most {STATEMENT_BYTES} are read"
         );
-        let text = self.text.trim_end_matches('\\');
+        let text: &str = match &self.text {
+            text if ends_in_letter(text) => text,
+            text => text.trim_end_matches('\\'),
+        };
         let (keyword, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-        Ok((keyword, rest.trim()))
+        Ok((keyword, without_comment(rest).trim()))
     }
 
     /// The error with the place in front, and a hint if the file ends within this line.
@@ -187,7 +194,27 @@ impl Statement<'_> {
     }
 }
 
-/// The part before a comment. Names may contain a `#` ("Material #25"), numbers never do.
+/// True if the last byte is the second one of a letter, which in Shift-JIS, Big5 and GBK may be that of a
+/// backslash.
+fn ends_in_letter(text: &str) -> bool {
+    text.strip_suffix('\\').is_some_and(|text| text.ends_with(is_foreign))
+}
+
+/// The part before a comment: a `#` after a blank. That of "Material #25", a name of 3ds Max, begins none, and
+/// neither does that of "#ff8000", a colour as a name.
+fn without_comment(rest: &str) -> &str {
+    let begins = |at: usize| {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        if before.is_empty() {
+            return after.is_empty() || after.starts_with(char::is_whitespace);
+        }
+        before.ends_with(char::is_whitespace) && !after.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let comment = rest.match_indices('#').find(|&(at, _)| begins(at));
+    comment.map_or(rest, |(at, _)| &rest[..at])
+}
+
+/// The part before a `#` anywhere. Names may contain one, numbers never do.
 pub fn uncommented(rest: &str) -> &str {
     rest.split('#').next().unwrap_or_default()
 }
@@ -204,104 +231,4 @@ pub(crate) fn name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str> {
         "the name is too long: {bytes} bytes, at most {NAME_BYTES} are read"
     );
     Ok(rest)
-}
-
-/// A word of the file on one line, shortened and escaped.
-pub fn quoted(word: &str) -> String {
-    let mut start: String = word.chars().take(60).collect();
-    if start.len() < word.len() {
-        start.push('…');
-    }
-    format!("{start:?}")
-}
-
-/// The folder of the OBJ file. Nothing outside it is opened: a model from elsewhere must not access the user's
-/// other files.
-pub struct Folder {
-    given: PathBuf,
-    root: PathBuf,
-}
-
-/// The reason why a named file is unavailable.
-#[derive(Debug)]
-pub(crate) enum Unavailable {
-    /// It does not exist, or cannot be read: a model may do without it.
-    Missing(String),
-    /// It is outside the model's folder, and is not opened.
-    Outside(String),
-}
-
-impl Display for Unavailable {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (Self::Missing(why) | Self::Outside(why)) = self;
-        f.write_str(why)
-    }
-}
-
-impl std::error::Error for Unavailable {}
-
-/// A file named by a model.
-pub struct Named {
-    /// Its path, links resolved.
-    pub path: PathBuf,
-    /// Its path relative to the OBJ file's folder, with `/` between the parts.
-    pub name: String,
-    /// Its path in error messages.
-    pub shown: String,
-}
-
-impl Folder {
-    /// The folder of a file.
-    ///
-    /// # Errors
-    /// If there is no such folder.
-    pub fn of(file: &Path) -> Result<Self> {
-        let given = file.parent().unwrap_or(Path::new(""));
-        let here = if given.as_os_str().is_empty() { Path::new(".") } else { given };
-        let root = here.canonicalize().map_err(|error| match error.kind() {
-            ErrorKind::NotFound => anyhow!("{}: there is no such file", shown(file)),
-            _ => anyhow!("{}: cannot be read: {error}", shown(file)),
-        })?;
-        Ok(Self { given: given.to_owned(), root })
-    }
-
-    /// Finds the file named by `keyword`; relative paths start at the file `from`, or else at the OBJ file.
-    ///
-    /// # Errors
-    /// `Unavailable` if it does not exist, no name is given, or it is outside the folder, directly or through a
-    /// symbolic link; another if the name is too long.
-    pub fn find(&self, keyword: &str, named: &str, from: Option<&Named>) -> Result<Named> {
-        let missing = |what: String| anyhow!(Unavailable::Missing(format!("{keyword} {what}")));
-        ensure!(!named.is_empty(), missing("is not followed by a name".to_owned()));
-        let name = name(keyword, named)?;
-        let outside = || {
-            let name = quoted(name);
-            anyhow!(Unavailable::Outside(format!(
-                "{keyword} names {name}, outside the OBJ file's folder; copy it into the folder"
-            )))
-        };
-        // Exporters on Windows write backslashes, and drive letters, which are relative paths elsewhere.
-        let relative = name.replace('\\', "/");
-        let drive = relative.as_bytes().get(1) == Some(&b':');
-        let parts = Path::new(&relative).components();
-        let inside =
-            parts.clone().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-        ensure!(inside && !drive, outside());
-        let mut path = from.and_then(|from| from.path.parent()).unwrap_or(&self.root).to_owned();
-        path.extend(parts.filter(|part| *part != Component::CurDir));
-        let path = path.canonicalize().map_err(|error| match error.kind() {
-            ErrorKind::NotFound => missing(format!("names {}, which is not there", quoted(name))),
-            _ => missing(format!("names {}, which cannot be read: {error}", quoted(name))),
-        })?;
-        let inside = path.strip_prefix(&self.root).map_err(|_| outside())?;
-        ensure!(path.is_file(), missing(format!("names {}, which is no file", quoted(name))));
-        let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
-        let (name, shown) = (parts.join("/"), shown(&self.given.join(inside)));
-        Ok(Named { name, shown, path })
-    }
-}
-
-/// A path on one line.
-pub fn shown(path: &Path) -> String {
-    path.display().to_string().replace(char::is_control, "\u{fffd}")
 }

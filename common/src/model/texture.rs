@@ -1,21 +1,20 @@
-//! A texture: an image in its form for the device, and the PNG files textures are read from.
+//! A texture: an image in its form for the device, and the files textures are read from.
+
+mod jpeg;
+mod kind;
+mod png;
 
 use std::collections::HashMap;
-use std::fmt::Display;
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, ensure};
-use image::codecs::png::PngDecoder;
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError};
+use anyhow::{Result, anyhow, ensure};
+use image::ColorType;
 
 use super::limits::Limits;
 use super::text::{Named, note_opened, open};
-use super::warnings::{Kind, Warnings};
-
-/// Limit on memory for decoding besides the texels: a few rows, and profiles and texts, which are not used here. A
-/// small file may contain a profile that unpacks to gigabytes; one that is larger is skipped.
-const BESIDE_BYTES: u64 = 16 << 20;
+use super::warnings::{self, Warnings};
+use kind::Kind;
 
 /// An image of 8 bits per channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,13 +99,17 @@ impl TextureFiles {
         let decode = |file: TextureFile| {
             let place = file.place.clone();
             match file.decode(&mut left, limits) {
-                Ok(texture) => {
+                Ok((texture, missing)) => {
+                    if let Some(what) = missing {
+                        let first = || format!("{place}: the texture {what}");
+                        warnings.add_many(warnings::Kind::Cut, 1, first);
+                    }
                     textures.push(texture);
                     Some(textures.len() - 1)
                 }
                 Err(error) => {
                     let first = || format!("{place}: the texture {error}");
-                    warnings.add_many(Kind::Texture, 1, first);
+                    warnings.add_many(warnings::Kind::Texture, 1, first);
                     None
                 }
             }
@@ -117,90 +120,69 @@ impl TextureFiles {
 }
 
 impl TextureFile {
-    /// Decodes the file, subtracting its size from the remaining bytes.
-    fn decode(self, left: &mut u64, limits: &Limits) -> Result<Texture> {
+    /// Decodes the file, subtracting its size from the remaining bytes; returns also what is missing in it.
+    fn decode(self, left: &mut u64, limits: &Limits) -> Result<(Texture, Option<String>)> {
         let shown = &self.named.shown;
+        let wrong = |what: anyhow::Error| anyhow!("{shown}: {what}");
         let mut file = BufReader::new(open(&self.named.path, shown, limits.texture_bytes)?);
-        let unread = || format!("{shown}: cannot be read");
+        let unread = |error: std::io::Error| wrong(anyhow!("cannot be read: {error}"));
         let mut head = Vec::new();
-        file.by_ref().take(24).read_to_end(&mut head).with_context(unread)?;
-        let is_png = head.starts_with(b"\x89PNG\r\n\x1a\n");
-        ensure!(is_png, "{shown}: is not a PNG file; convert it to one");
-        let damaged = |what: &dyn Display| {
-            anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {what}")
+        file.by_ref().take(kind::HEAD).read_to_end(&mut head).map_err(unread)?;
+        file.rewind().map_err(unread)?;
+        let kind = Kind::of(&head).map_err(wrong)?;
+        let (image, missing) = match kind {
+            Kind::Png => (png::decode(file, &self, left, limits).map_err(wrong)?, None),
+            Kind::Jpeg => jpeg::decode(file, &self, left, limits).map_err(wrong)?,
         };
-        check_palette(&mut file).map_err(|error| damaged(&error))?;
-        // The decoder's error for a row that is too long does not name the limit.
-        if let [.., a, b, c, d, e, f, g, h] = head[8..]
-            && head.len() == 24
-        {
-            let [width, height] = [[a, b, c, d], [e, f, g, h]].map(u32::from_be_bytes);
-            let side = limits.texture_side;
-            ensure!(
-                width.max(height) <= side,
-                "{shown}: is {width} x {height} texels, at most {side} x {side} are read"
-            );
-        }
-
-        let broken = |error| match error {
-            ImageError::Limits(_) => anyhow!(
-                "{shown}: has texts of more than {BESIDE_BYTES} bytes beside its texels; save it without"
-            ),
-            error => damaged(&error),
-        };
-        let mut beside = image::Limits::default();
-        beside.max_alloc = Some(BESIDE_BYTES);
-        let decoder = PngDecoder::with_limits(file, beside).map_err(broken)?;
-        let (width, height) = decoder.dimensions();
-        let texels = u64::from(width) * u64::from(height);
-        let (color, decoded) = (decoder.color_type(), decoder.total_bytes());
-        let wants_luminance = self.opacity && !color.has_alpha();
-        // The file's own data, perhaps 16 bits per channel, coexists with the 8 bits made from it.
-        let converted = if color == ColorType::Rgba8 { 0 } else { 4 * texels };
-        let need = decoded + converted + if wants_luminance { texels } else { 0 };
-        ensure!(
-            need <= *left,
-            "{shown}: is {width} x {height} texels, which take {need} bytes to decode; all textures \
-             together may take {}, of which {left} are left",
-            limits.texture_bytes
-        );
-        *left -= 4 * texels;
-        let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
-
-        let luminance = wants_luminance.then(|| image.to_luma8());
+        let (width, height) = (image.width(), image.height());
+        let luminance = self.wants_luminance(image.color()).then(|| image.to_luma8());
         let mut rgba = image.into_rgba8().into_raw();
         for (texel, luminance) in
             rgba.chunks_exact_mut(4).zip(luminance.iter().flat_map(|luma| luma.as_raw()))
         {
             texel[3] = *luminance;
         }
-        Ok(Texture { name: self.named.name, width, height, rgba, srgb: self.color })
+        let missing = missing.map(|what| format!("{shown}: {what}"));
+        Ok((Texture { name: self.named.name, width, height, rgba, srgb: self.color }, missing))
+    }
+
+    fn wants_luminance(&self, color: ColorType) -> bool {
+        self.opacity && !color.has_alpha()
+    }
+
+    /// Takes the bytes of the texels, if they and `decoder` more, which decoding takes, are left.
+    fn take(
+        &self,
+        (width, height): (u32, u32),
+        color: ColorType,
+        decoder: u64,
+        left: &mut u64,
+        limits: &Limits,
+    ) -> Result<()> {
+        let texels = u64::from(width) * u64::from(height);
+        // The file's own data, perhaps 16 bits per channel, coexists with the 8 bits made from it.
+        let decoded = u64::from(color.bytes_per_pixel()) * texels;
+        let converted = if color == ColorType::Rgba8 { 0 } else { 4 * texels };
+        let luminance = if self.wants_luminance(color) { texels } else { 0 };
+        let need = decoder + decoded + converted + luminance;
+        ensure!(
+            need <= *left,
+            "is {width} x {height} texels, which take {need} bytes to decode; all textures together may \
+             take {}, of which {left} are left",
+            limits.texture_bytes
+        );
+        *left -= 4 * texels;
+        Ok(())
     }
 }
 
-/// Checks that a PNG file begins as one and that its palette has whole colours, which the decoder assumes. Leaves
-/// the file at its start.
-fn check_palette(file: &mut BufReader<impl Read + Seek>) -> Result<()> {
-    file.seek(SeekFrom::Start(8))?;
-    let mut is_first = true;
-    loop {
-        let mut head = [0; 8];
-        // The decoder reports truncated files.
-        if file.read_exact(&mut head).is_err() {
-            break;
-        }
-        let [a, b, c, d, kind @ ..] = head;
-        let length = u32::from_be_bytes([a, b, c, d]);
-        ensure!(!is_first || &kind == b"IHDR", "its first chunk is not IHDR");
-        is_first = false;
-        match &kind {
-            b"PLTE" => ensure!(length % 3 == 0, "its palette has {length} bytes, no multiple of 3"),
-            b"IDAT" | b"IEND" => break,
-            _ => {}
-        }
-        file.seek_relative(i64::from(length) + 4)?;
-    }
-    file.rewind()?;
+/// Checks the sides of an image.
+fn check_sides((width, height): (u32, u32), limits: &Limits) -> Result<()> {
+    let side = limits.texture_side;
+    ensure!(
+        width.max(height) <= side,
+        "is {width} x {height} texels, at most {side} x {side} are read"
+    );
     Ok(())
 }
 

@@ -17,6 +17,10 @@ pub(crate) enum Kind {
     Texture,
     /// A texture on faces without texture coordinates.
     Untextured,
+    /// A file of the name beside the model, but not where the name leads.
+    Elsewhere,
+    /// A texture of which the end is missing.
+    Cut,
     /// An option or a form of a statement that is not supported.
     Option,
     /// A texture coordinate that is wrong or out of range.
@@ -51,6 +55,8 @@ impl Kind {
             Self::Definition => Some("the first definition stands"),
             Self::Material => Some("a grey stands for it"),
             Self::Texture => Some("the plain colour stands for it"),
+            Self::Elsewhere => Some("the file of that name beside the model is taken"),
+            Self::Cut => Some("what there is of it is shown"),
             Self::Untextured => Some("one texel colours the whole face"),
             Self::Option => Some("it is ignored"),
             Self::Coordinate => Some("the corner has none"),

@@ -3,6 +3,7 @@
 pub mod board;
 mod camera;
 mod chess;
+mod inside_out;
 mod light;
 pub mod material;
 pub mod mesh;

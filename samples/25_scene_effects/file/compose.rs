@@ -4,12 +4,13 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use anyhow::Result;
-use common::model::text::{Folder, quoted};
-use common::model::{Model, obj};
+use common::model::text::{Folder, quoted, shown};
+use common::model::{Model, obj, turn_outwards};
 use common::scene::{Camera, Instance, Material, Mesh, REACH, Scene, assets, place_position};
 use glam::{Affine3A, Mat3A, Vec3};
 use toml::Spanned;
 
+use super::departure::{Thing, too_high};
 use super::description::{
     CameraTable, Description, LensTable, PieceTable, PlaneTable, SphereTable,
 };
@@ -17,7 +18,9 @@ use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
 use crate::composition::{close, pinhole};
-use crate::{Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLens, is_glass};
+use crate::{
+    Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLens, is_body, is_glass,
+};
 
 /// Pieces, spheres, boxes, solids and materials, each.
 const MOST: usize = 100_000;
@@ -52,6 +55,10 @@ impl Description {
             lens = ThinLens { diameter, focus: focus.unwrap_or(lens.focus), blades, ..lens };
         }
         let instances = self.instances(&model, &materials, source)?;
+        let bodies = instances.iter().filter(|placed| is_body(&model.materials[placed.material]));
+        let bodies: HashSet<usize> = bodies.map(|placed| placed.mesh).collect();
+        let turned = turn_outwards(&mut model.meshes, |mesh| bodies.contains(&mesh), &shown(path));
+        model.warnings.extend(turned);
         let lights = self.light.iter().map(|lamp| {
             let lit = lamp.get_ref().light();
             lit.map_err(|what| source.error(lamp.span().start, what))
@@ -81,6 +88,7 @@ impl Description {
             scene: Scene { model, instances, camera },
         };
         self.add_shapes(&mut composition, &materials, source)?;
+        self.warn_of_planets(&mut composition, source);
         composition.prune();
         Ok(composition)
     }
@@ -94,13 +102,22 @@ impl Description {
                 obj::load_own(&assets().join("chess.obj"))
             };
         };
+        let words = |what: &str| what.replace("the OBJ file's folder", "the scene file's folder");
         let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {
-            let what =
-                error.to_string().replace("the OBJ file's folder", "the scene file's folder");
-            source.error(named.span().start, &what)
+            let escape = if named.get_ref().contains(char::is_control) {
+                "; a `\\` in a text begins an escape: write `/` between folders"
+            } else {
+                ""
+            };
+            source.error(named.span().start, &format!("{}{escape}", words(&error.to_string())))
         })?;
-        // Where it stands: the scene file's other coordinates go with it.
-        obj::load(&path.with_file_name(&found.name))
+        // It keeps its place, because the scene file's other coordinates belong to it.
+        let mut model = obj::load(&found.beside)?;
+        if let Some(instead) = &found.instead {
+            let what = source.error(named.span().start, &words(instead));
+            model.warnings.insert(0, format!("{what}; the file of that name beside it is taken"));
+        }
+        Ok(model)
     }
 
     /// Adds and changes materials, and returns the number of each name, and the finishes.
@@ -207,6 +224,24 @@ impl Description {
             to.strands.chain(nodes.map(node), material);
         }
         Ok(())
+    }
+}
+
+impl Description {
+    /// Warns of spheres that are too large for what stands on them.
+    fn warn_of_planets(&self, to: &mut Composition, source: &Source) {
+        let ball =
+            |&Sphere { center, radius, .. }: &Sphere| Thing { center, radius, size: 2.0 * radius };
+        let instances = to.scene.instances.iter();
+        let boxes = instances.map(|instance| to.scene.instance_bounds(instance));
+        let boxes = boxes.chain(to.boxes.iter().map(|block| (block.low, block.high)));
+        let boxes = boxes.chain(to.solid_bounds.iter().copied());
+        let things: Vec<Thing> =
+            to.spheres.iter().map(ball).chain(boxes.map(Thing::within)).collect();
+        if let Some((number, what)) = too_high(&to.spheres, &things) {
+            let line = source.error(self.sphere[number].span().start, &what).to_string();
+            to.scene.model.warnings.push(line);
+        }
     }
 }
 

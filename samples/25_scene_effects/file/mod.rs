@@ -2,6 +2,7 @@
 
 mod bounded;
 mod compose;
+mod departure;
 mod description;
 mod names;
 mod nesting;
@@ -9,6 +10,7 @@ mod polytope;
 mod source;
 mod tally;
 mod values;
+mod words;
 
 use std::path::Path;
 
@@ -17,6 +19,7 @@ use common::model::text::shown;
 use common::scene::Scene;
 use description::Description;
 use source::Source;
+use toml::de::DeValue;
 
 use crate::Composition;
 
@@ -41,6 +44,14 @@ pub fn open(path: &Path) -> Result<Composition> {
         let what =
             format!("a scene file has the key `version = {VERSION}`; no other version is known");
         return Err(source.error(at, &what));
+    }
+    for name in words::ONCE {
+        if let Some(value) = table.get_ref().get(name)
+            && matches!(value.get_ref(), DeValue::Array(_))
+        {
+            let what = format!("there is one table of this name: write [{name}]");
+            return Err(source.error(value.span().start, &what));
+        }
     }
     checked(source.read::<Description>(table)?.compose(path, &source)?, path)
 }

@@ -4,13 +4,14 @@ use std::io::Read;
 use std::path::Path;
 
 use anyhow::{Result, anyhow};
-use common::model::text::{open, shown};
+use common::model::text::{open, shown, utf8};
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
 use super::nesting::MOST;
 use super::tally::Tally;
+use super::words;
 
 /// Bytes of a scene file.
 const FILE_BYTES: u64 = 16 << 20;
@@ -33,11 +34,7 @@ impl Source {
             .take(FILE_BYTES)
             .read_to_end(&mut bytes)
             .map_err(|error| anyhow!("{shown}: cannot be read: {error}"))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
-            anyhow!("{shown}:{line}: this is no UTF-8 text; a scene file is TOML")
-        })?;
+        let text = utf8(bytes, &shown)?;
         Ok(Self { shown, text })
     }
 
@@ -67,19 +64,22 @@ impl Source {
             let what = format!("this stands in more than {MOST} tables and lists");
             return Err(self.error(at, &what));
         }
-        DeTable::parse(&self.text).map_err(|error| self.wrong(&error))
+        DeTable::parse(&self.text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start).min(self.text.len());
+            let (before, after) = self.text.as_bytes().split_at(at);
+            let start = before.rsplit(|&byte| byte == b'\n').next().map_or(0, <[u8]>::len);
+            let end = after.iter().position(|&byte| byte == b'\n').unwrap_or(after.len());
+            let line = self.text.get(at - start..at + end).unwrap_or_default();
+            self.error(at, &words::syntax(line, error.message()))
+        })
     }
 
     /// Reads a table.
     pub fn read<'a, T: Deserialize<'a>>(&self, table: Spanned<DeTable<'a>>) -> Result<T> {
-        T::deserialize(Deserializer::from(table)).map_err(|error| self.wrong(&error))
-    }
-
-    fn wrong(&self, error: &toml::de::Error) -> anyhow::Error {
-        let what = error.message();
-        let what = what.replace("expected a boolean", "expected true or false");
-        let what = what.replace("expected a sequence", "expected tables, each under [[its name]]");
-        self.error(error.span().map_or(0, |span| span.start), &what)
+        T::deserialize(Deserializer::from(table)).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            self.error(at, &words::value(error.message()))
+        })
     }
 
     /// Refuses a list that is too long, at its first entry too many.

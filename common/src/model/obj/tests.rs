@@ -87,7 +87,7 @@ fn forms_that_people_really_have() {
     }
     let latin = [b"o caf\xe9\n", TRIANGLE.as_bytes()].concat();
     let latin = load_files(&[("model.obj", &latin)], &Limits::DEFAULT).unwrap();
-    assert_eq!(latin.meshes[0].name, "caf\u{fffd}");
+    assert_eq!(latin.meshes[0].name, "caf\u{10ffe9}");
 }
 
 #[test]

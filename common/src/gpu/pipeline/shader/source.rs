@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 
 use super::folders;
+use crate::model::text::utf8;
 
 /// The extension for including files and for file names in `#line`.
 const INCLUDE_EXTENSION: &str = "GL_GOOGLE_include_directive";
@@ -46,11 +47,7 @@ fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
         metadata.len().saturating_add(text.len() as u64) <= MOST_BYTES as u64,
         "shader '{path}': with its includes it has more than {MOST_BYTES} bytes, the most that are read"
     );
-    let own = fs::read_to_string(&file).with_context(failed)?;
-    if let Some(zero) = own.find('\0') {
-        let line = 1 + own[..zero].matches('\n').count();
-        bail!("{path}:{line}: holds a zero byte: this is a binary file, not text");
-    }
+    let own = utf8(fs::read(&file).with_context(failed)?, path)?;
     for (number, line) in (1..).zip(own.lines()) {
         let Some(rest) = line.trim_start().strip_prefix("#include") else {
             text.push_str(line);
