@@ -6,10 +6,8 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Result, ensure};
 use common::app::Progress;
 use common::gpu::{Address, Buffer, Gpu};
-use common::model::text::quoted;
 use common::scene::{Scene, SceneOnGpu, input_usage};
-use common::{output, workers};
-use glam::Vec2;
+use common::workers;
 use serde_json::{Value, json};
 
 use crate::alpha::Alpha;
@@ -85,13 +83,6 @@ impl Micromaps {
         let mut pairs: Vec<_> = pairs.filter(|_| level.is_some()).collect();
         pairs.sort_unstable();
         pairs.dedup();
-        for Pair { mesh, .. } in &pairs {
-            let mesh = &scene.model.meshes[*mesh];
-            if mesh.vertices.iter().all(|vertex| vertex.uv == Vec2::ZERO) {
-                let what = "has no vt, which its map_d needs: one place of the texture stands for all of it";
-                output::warn(&[format!("the mesh {} {what}", quoted(&mesh.name))]);
-            }
-        }
         let cut = level.unwrap_or(0);
         let triangles = |pair: &Pair| scene.model.meshes[pair.mesh].triangles.len();
         let triangles = pairs.iter().map(triangles).sum();

@@ -42,7 +42,7 @@ fn a_window_reports_nothing() {
     for report in ["-", "a.json"] {
         let mut window = run::command(super::SAMPLE);
         window.args(["--report", report]);
-        super::refused_by(window, 2, &["--report", "with --headless"]);
+        super::refused_by(window, 2, &["--report needs --headless"]);
     }
 }
 

@@ -30,25 +30,38 @@ fn chapter() -> Chapter {
 pub struct Octahedron(tempfile::TempDir);
 
 impl Octahedron {
-    fn new(middle: Vec3) -> Self {
+    fn new(middles: &[Vec3]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mtl = "newmtl a\nKd 0.3 0.5 0.2\nKs 0.4 0.3 0.2\nNs 50\nillum 3\nmap_Kd a.png\n";
         std::fs::write(folder.path().join("a.mtl"), mtl).unwrap();
         let white = image::RgbaImage::from_pixel(2, 2, image::Rgba([255; 4]));
         white.save(folder.path().join("a.png")).unwrap();
-        let mut obj = "mtllib a.mtl\no a\nusemtl a\n".to_owned();
-        for corner in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]) {
-            let Vec3 { x, y, z } = corner + middle;
-            obj += &format!("v {x} {y} {z}\n");
+        let mut obj = "mtllib a.mtl\no a\nusemtl a\nvt 0 0\n".to_owned();
+        for &middle in middles {
+            for corner in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]) {
+                let Vec3 { x, y, z } = corner + middle;
+                obj += &format!("v {x} {y} {z}\n");
+            }
+            for [a, b, c] in [
+                [1, 3, 5],
+                [3, 2, 5],
+                [2, 4, 5],
+                [4, 1, 5],
+                [3, 1, 6],
+                [2, 3, 6],
+                [4, 2, 6],
+                [1, 4, 6],
+            ] {
+                obj += &format!("f {}/1 {}/1 {}/1\n", a - 7, b - 7, c - 7);
+            }
         }
-        obj += "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
         std::fs::write(folder.path().join("a.obj"), obj).unwrap();
         Self(folder)
     }
 
-    /// Beyond what a camera sees, so that the plane is alone.
+    /// Beyond what a camera sees, so that the plane is alone: on two sides, or it would be moved to the origin.
     pub fn out_of_sight() -> Self {
-        Self::new(Vec3::new(0.0, 0.0, 1e9))
+        Self::new(&[Vec3::new(0.0, 0.0, 1e9), Vec3::new(0.0, 0.0, -1e9)])
     }
 
     pub fn path(&self) -> String {
@@ -183,7 +196,10 @@ fn rays_in_the_plane_and_rays_that_begin_on_it_miss() {
 
 #[test]
 fn testing_before_and_after_give_the_same_bits() {
-    let (near, far) = (Octahedron::new(Vec3::Y), Octahedron::new(Vec3::new(6e3, 4801.0, 6.4e3)));
+    let near = Octahedron::new(&[Vec3::Y]);
+    // On two sides of the origin, or it would be moved there.
+    let far = [Vec3::new(6e3, 4801.0, 6.4e3), Vec3::new(-6e3, 4801.0, -6.4e3)];
+    let far = Octahedron::new(&far);
     let at_the_far_one = [
         "plane distance=4800",
         "camera eye=5996.6,4801.6,6407.2",
@@ -203,7 +219,7 @@ fn testing_before_and_after_give_the_same_bits() {
 
 #[test]
 fn without_the_plane_the_picture_is_that_of_06() {
-    let model = Octahedron::new(Vec3::new(0.2, 1.1, 0.0));
+    let model = Octahedron::new(&[Vec3::new(0.2, 1.1, 0.0)]);
     // The preset's sun has a strength of its own: here it gets that of 06.
     let strength = "return light.strength;";
     let shaders = shaders_with("common/light.glsl", strength, "return vec3(4.4, 3.5, 2.4);");

@@ -381,7 +381,8 @@ fn files(folder: &Path) -> Vec<String> {
 
 #[test]
 fn the_page_lists_every_scene_and_every_effect() {
-    let page = std::fs::read_to_string(root().join("docs/25_scene_effects.md")).unwrap();
+    let page = |file: &str| std::fs::read_to_string(root().join(file)).unwrap();
+    let page = page("docs/25_scene_effects.md") + &page("docs/measurements/25_scene_effects.md");
     for (name, ..) in SCENES {
         let file = format!("{}.toml", name.replace(' ', "_"));
         assert!(page.contains(&format!("(../samples/assets/scenes/{file})")), "{file}");
@@ -415,17 +416,16 @@ fn the_page_of_the_format_lists_every_key() {
         let file = folder.path().join("s.toml");
         std::fs::write(&file, format!("version = 1\n{table}\nunheard_of = 1\n")).unwrap();
         let error = effects::open(&file).err().unwrap().to_string();
-        let known = error.split_once("expected ").expect(&error).1.trim_start_matches("one of ");
-        let known = known.replace(" or ", ", ");
+        let known = error.split_once("; there is ").expect(&error).1;
         let rows =
             page.split_once(&format!("| `{table}` |")).map_or(page.as_str(), |split| split.1);
         let rows = &rows[..rows.find("\n| `[").or(rows.find("\n\n")).unwrap()];
-        for key in known.split(", ") {
+        for key in known.split(", ").map(|key| format!("`{}`", key.trim_matches('`'))) {
             let there = if table.is_empty() {
-                page.contains(key) || page.contains(&format!("[{}]", key.trim_matches('`')))
+                page.contains(&key) || page.contains(&format!("[{}]", key.trim_matches('`')))
             } else {
                 let valued = format!("{} =", key.trim_end_matches('`'));
-                rows.contains(key) || rows.contains(&valued)
+                rows.contains(&key) || rows.contains(&valued)
             };
             assert!(there, "{table} {key} is not on the page");
         }

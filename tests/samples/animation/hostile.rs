@@ -66,7 +66,7 @@ fn a_file_that_holds_no_legs_is_refused_in_one_line() {
         (b"piece white pawn 0 0 0\n", "there is no last frame in it, or no piece"),
         (b"piece white pawn 0 0 0\nleg 1 0 0 0 0 0\n", "g.legs:2: \"1\" is no number from 0 to 0"),
         (b"last 100\n\0\n", "g.legs:2: holds a zero byte"),
-        (b"\xff\xfe\xff\n", "g.legs:1: a line is"),
+        (b"\xff\xfe\xff\n", "g.legs:1: this is UTF-16 text; save it as UTF-8"),
         (b"last 100\npiece whi", "the piece becomes another; the file ends in this line"),
         (&long, "g.legs:2: a line is"),
         (pieces.as_bytes(), "g.legs:257: more than 256 pieces"),

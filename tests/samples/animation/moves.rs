@@ -89,7 +89,7 @@ fn a_file_that_is_no_game_is_refused_in_one_line() {
         (b"e2-e9\n", "game.txt:1: \"e2-e9\" is no move"),
         (b"e2-e4=X\n", "\"e2-e4=X\" is no move"),
         (b"e2-e4 e7-e5\n", "game.txt:1: \"e7-e5\" after a move; a line has one"),
-        (b"\xff\xfe\xff\n", "is no move"),
+        (b"\xff\xfe\xff\n", "game.txt:1: this is UTF-16 text; save it as UTF-8"),
         (
             b"e2-e4\ne7-",
             "is no move: a move is from where to where, as e2-e4, or e7-e8=Q; the file ends in this line",

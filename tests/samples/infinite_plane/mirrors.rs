@@ -96,7 +96,7 @@ fn the_plane_mirrors_the_pieces() {
 #[test]
 fn what_mirrors_mirrors_the_plane() {
     // Seen from below the plane: its underside shines in squares, and nothing stands above it.
-    let model = Octahedron::new(Vec3::Y);
+    let model = Octahedron::new(&[Vec3::Y]);
     let sets = [
         "plane distance=3",
         "inside=color",

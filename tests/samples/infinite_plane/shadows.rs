@@ -61,7 +61,7 @@ fn pieces_throw_shadows_on_the_plane() {
 #[test]
 fn the_plane_throws_its_shadow_on_what_is_below() {
     // An octahedron, the plane above it, and the eye below that.
-    let model = Octahedron::new(Vec3::Y);
+    let model = Octahedron::new(&[Vec3::Y]);
     let above = ["plane distance=3", "camera eye=-1,1.4,2.4", "camera target=0,1,0"];
     let hits = model.picture(&[&above[..], &["show=hit"]].concat());
     let pixels = hits.pixels.iter().filter(|hit| hit[0] >= 0.0).count();
