@@ -416,7 +416,7 @@ fn the_page_of_the_format_lists_every_key() {
         let file = folder.path().join("s.toml");
         std::fs::write(&file, format!("version = 1\n{table}\nunheard_of = 1\n")).unwrap();
         let error = effects::open(&file).err().unwrap().to_string();
-        let known = error.split_once("; there is ").expect(&error).1;
+        let known = error.split_once("; there is ").expect(&error).1.replace(" or ", ", ");
         let rows =
             page.split_once(&format!("| `{table}` |")).map_or(page.as_str(), |split| split.1);
         let rows = &rows[..rows.find("\n| `[").or(rows.find("\n\n")).unwrap()];
