@@ -12,14 +12,10 @@ use crate::sample;
 const FOLDER: &str = "/usr/share/assimp/models";
 
 /// Files that cannot be shown, and the reason.
-const REFUSED: [(&str, &str); 7] = [
+const REFUSED: [(&str, &str); 6] = [
     ("box_UTF16BE.obj", ":1: this is UTF-16 text; save it as UTF-8"),
     ("empty.obj", ": has no faces"),
-    (
-        "malformed.obj",
-        ":23: face index 12 is out of range: the file has 8 positions up to this line",
-    ),
-    ("number_formats.obj", ":11: \"3.1+e2\" is not a number"),
+    ("number_formats.obj", ":11: v has \"3.1+e2\", which is not a number"),
     ("point_cloud.obj", ": has no faces"),
     ("testline.obj", ": has no faces"),
     ("testpoints.obj", ": has no faces"),
@@ -40,7 +36,8 @@ fn objects(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The number of triangles of a file, and the lowest and highest corner of the box around those of its faces.
+/// The number of triangles of a file, and the lowest and highest corner of the box around those of its faces. Faces of
+/// too few corners, or with a corner that is not there, do not count.
 fn read(text: &str) -> (usize, [f32; 3], [f32; 3]) {
     let mut positions: Vec<[f32; 3]> = Vec::new();
     let (mut count, mut low, mut high) = (0, [f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
@@ -52,13 +49,15 @@ fn read(text: &str) -> (usize, [f32; 3], [f32; 3]) {
                 positions.push([numbers[0], numbers[1], numbers[2]]);
             }
             Some("f") => {
-                let corners: Vec<&str> = words.collect();
+                let end = positions.len() as isize + 1;
+                let corner = |word: &str| {
+                    let index: isize = word.split('/').next().unwrap().parse().expect("an index");
+                    positions.get((index + if index < 0 { end } else { 0 } - 1) as usize).copied()
+                };
+                let corners: Option<Vec<[f32; 3]>> = words.map(corner).collect();
+                let corners = corners.filter(|corners| corners.len() > 2).unwrap_or_default();
                 count += corners.len().saturating_sub(2);
-                for corner in corners.iter().filter(|_| corners.len() > 2) {
-                    let index: isize = corner.split('/').next().unwrap().parse().expect("an index");
-                    let end = positions.len() as isize + 1;
-                    let position =
-                        positions[(index + if index < 0 { end } else { 0 } - 1) as usize];
+                for position in corners {
                     for axis in 0..3 {
                         low[axis] = low[axis].min(position[axis]);
                         high[axis] = high[axis].max(position[axis]);
