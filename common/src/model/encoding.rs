@@ -8,7 +8,7 @@ use anyhow::{Result, anyhow, bail, ensure};
 /// The first of 256 characters for bytes that are not UTF-8: the last ones for private use, which no text needs.
 const FOREIGN: u32 = 0x10_ff00;
 
-/// What marks the beginning of UTF-8 in files from Windows.
+/// The byte order mark that begins UTF-8 files from Windows.
 const MARK: &str = "\u{feff}";
 
 /// The text of these bytes. Each byte that is not UTF-8 becomes a character of its own, so that names are equal

@@ -13,7 +13,7 @@ const FAR: f64 = 256.0;
 pub(crate) struct Positions {
     /// Rounded to 32 bits.
     rounded: Vec<Vec3>,
-    /// What the rounding left; the sum has 48 bits.
+    /// The remainder of the rounding; both together have 48 bits.
     left: Vec<Vec3>,
 }
 

@@ -43,7 +43,7 @@ impl Mesh {
         self.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
     }
 
-    /// How far a triangle's three normals point to its front, by its area.
+    /// The sum of a triangle's three normals along its face normal, weighted by its area.
     fn agreement(&self, corners: &[u32; 3]) -> f64 {
         let corners = corners.map(|i| self.vertices[i as usize]);
         let [a, b, c] = corners.map(|vertex| vertex.position.as_dvec3());

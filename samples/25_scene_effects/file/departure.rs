@@ -53,7 +53,7 @@ pub(super) fn too_high(spheres: &[Sphere], things: &[Thing]) -> Option<(usize, S
     })
 }
 
-/// How far above a sphere's surface in direction `normal` a ray starts, as in
+/// The height above a sphere's surface, in direction `normal`, at which a ray starts, as in
 /// `shaders/25_scene_effects/report.glsl`: the sum of the bounds on what rounds. It grows with the radius, and with
 /// the distance from the origin.
 fn departure(sphere: &Sphere, normal: Vec3) -> f32 {

@@ -13,7 +13,7 @@ const INLINE: &str = "a table within a line is { diameter = 0.1, focus = 2 }";
 const NUMBER: &str = "a number is 7, 0.5 or 1e6, with a digit on either side of the point";
 const TEXT: &str = "a text ends on its line, in the quote that it began with: \"red\"";
 
-/// What is wrong in this line of a file that is not TOML; `fault` is the reader's message.
+/// The message about a line of a file that is not TOML; `fault` is the parser's own.
 pub(super) fn syntax(line: &str, fault: &str) -> String {
     let value = line.split_once('=').map_or("", |(_, value)| value);
     let value = value.split('#').next().unwrap_or_default().trim();
@@ -46,7 +46,7 @@ pub(super) fn syntax(line: &str, fault: &str) -> String {
     what.to_owned()
 }
 
-/// What the reader says of numbers.
+/// Words of the parser's messages about numbers.
 const NUMBERS: [&str; 9] = [
     "mantissa",
     "fraction",
@@ -73,7 +73,7 @@ fn key(line: &str) -> &str {
     name.trim_matches(|c: char| c.is_whitespace() || matches!(c, '[' | ']'))
 }
 
-/// What to write in place of a value that is none.
+/// The remedy for a value that is not valid TOML.
 fn unquoted(value: &str) -> String {
     let what = match value.chars().next() {
         None => "the value is missing; write it after the `=`, on the same line",
@@ -92,7 +92,7 @@ fn unquoted(value: &str) -> String {
     what.to_owned()
 }
 
-/// What is wrong with a value or a key of a file that is TOML. Our own complaints pass unchanged.
+/// The message about a value or a key of a file that is valid TOML. Our own complaints pass unchanged.
 pub(super) fn value(fault: &str) -> String {
     let names = |list: &str| list.replace('`', "");
     if let Some((name, rest)) = named(fault, "unknown field `") {

@@ -181,7 +181,7 @@ fn jpeg_files_that_are_wrong() {
     ] {
         warned("map_Kd t.png", &file, &format!("the texture t.png: {words}"));
     }
-    // What there is of it is shown.
+    // The part that was read is shown.
     let textured = TRIANGLE.replace("f 1 2 3", "vt 0 0\nf 1/1 2/1 3/1");
     let obj = format!("mtllib m.mtl\nusemtl a\n{textured}");
     let mtl: &[u8] = b"newmtl a\nmap_Kd t.jpg\n";
