@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use ash::vk;
-use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
+use common::gpu::{AccelerationStructure, Buffer, Gpu, Sampling, order};
 use common::model::{Model, Texture};
 use common::scene::{
     InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
@@ -194,7 +194,14 @@ fn checks() -> Texture {
         if light { [226, 208, 172, 255] } else { [134, 22, 26, 255] }
     };
     let rgba = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).flat_map(texel).collect();
-    Texture { name: "flag".to_owned(), width, height, rgba, srgb: true }
+    Texture {
+        name: "flag".to_owned(),
+        width,
+        height,
+        rgba,
+        srgb: true,
+        sampling: Sampling::default(),
+    }
 }
 
 fn mesh(model: &Model, name: &str) -> Result<usize> {

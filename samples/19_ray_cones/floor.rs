@@ -1,6 +1,7 @@
 //! The chess set on a floor that reaches to the horizon, and the tiles on it.
 
 use anyhow::Result;
+use common::gpu::Sampling;
 use common::model::Texture;
 use common::scene::{Camera, Instance, Material, Mesh, Scene, Vertex};
 use glam::{Affine3A, DVec3, Vec2, Vec3};
@@ -76,7 +77,14 @@ fn tiles() -> Texture {
         [r, g, b, 255]
     };
     let rgba = (0..side * side).flat_map(texel).collect();
-    Texture { name: "tiles".to_owned(), width: side, height: side, rgba, srgb: true }
+    Texture {
+        name: "tiles".to_owned(),
+        width: side,
+        height: side,
+        rgba,
+        srgb: true,
+        sampling: Sampling::default(),
+    }
 }
 
 fn srgb(linear: f32) -> f32 {

@@ -106,15 +106,28 @@ pub const MAX_LIGHTS: usize = 4;
 pub const FOCUS: RangeInclusive<f32> = 0.015625..=1024.0;
 
 impl Composition {
-    /// Meshes as they stand under a sun.
-    pub fn of_meshes(scene: Scene) -> Self {
-        let light = Light::directional(&Sun::default());
-        let disk = DiskLight { light, radius: 0.0, samples: 1 };
+    /// Meshes as they stand, under the lights of their file, or else under a sun.
+    pub fn of_meshes(mut scene: Scene) -> Self {
+        let model = &mut scene.model;
+        if model.lights.len() > MAX_LIGHTS {
+            let count = model.lights.len();
+            model.warnings.push(format!("of the {count} lights, the first {MAX_LIGHTS} are shown"));
+        }
+        let mut lights: Vec<Light> =
+            model.lights.iter().take(MAX_LIGHTS).map(|light| (*light).into()).collect();
+        if lights.is_empty() {
+            lights.push(Light::directional(&Sun::default()));
+        }
+        let lights = lights.into_iter().map(|light| SceneLight {
+            disk: DiskLight { light, radius: 0.0, samples: 1 },
+            shadows: true,
+        });
+        let lights = lights.collect();
         let mut composition = Self {
             finishes: vec![Finish::NONE; scene.model.materials.len()],
             lens: pinhole(&scene.camera),
             scene,
-            lights: vec![SceneLight { disk, shadows: true }],
+            lights,
             plane: None,
             spheres: Vec::new(),
             boxes: Vec::new(),

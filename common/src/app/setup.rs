@@ -43,13 +43,21 @@ impl Setup {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
             let what = match paths::folder() {
                 None => {
-                    "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file"
+                    "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ or glTF file"
                 }
-                Some(_) => "a scene file of the book; this program takes an OBJ file",
+                Some(_) => "a scene file of the book; this program takes an OBJ or glTF file",
             };
             return Err(UsageError(format!("{}: {what}", shown(path))).into());
         }
-        let scene = Scene::open(path)?;
+        let mut scene = Scene::open(path)?;
+        let lights = scene.model.lights.len();
+        if lights > 0 {
+            let lit = "this one has its own; 25_scene_effects shows them";
+            scene
+                .model
+                .warnings
+                .push(format!("{}: has lights; {lit} ({lights} in all)", shown(path)));
+        }
         output::warn(&scene.model.warnings);
         Ok(scene)
     }

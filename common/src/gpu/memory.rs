@@ -3,6 +3,7 @@
 pub mod arrays;
 pub mod buffer;
 pub mod image;
+pub mod sampling;
 pub mod staging;
 pub mod texture;
 

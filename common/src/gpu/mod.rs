@@ -36,6 +36,7 @@ pub use device::threads::ensure_threads;
 pub use device::{device_lines, named as named_device};
 pub use memory::buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use memory::image::{Image, Texels, transition};
+pub use memory::sampling::{Sampling, Wrap};
 pub use memory::texture::TextureTable;
 pub use pipeline::cache::PipelineCache;
 pub use pipeline::desc::{Attachments, Binding, Group, PipelineDesc, Stage};

@@ -45,7 +45,7 @@ impl Display for Unavailable {
 impl std::error::Error for Unavailable {}
 
 /// A file named by a model.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Named {
     /// Its path, links resolved.
     pub path: PathBuf,

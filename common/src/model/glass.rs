@@ -3,10 +3,16 @@
 use glam::Vec3;
 
 use super::text::quoted;
+use crate::scene::material::Material;
 use crate::scene::mesh::Mesh;
 
 /// The number of bodies of which one may have another as its bubble.
 const OUTER: usize = 1000;
+
+/// True for the material of a body that refracts light.
+pub(crate) fn is_body(material: &Material) -> bool {
+    matches!(material.illumination, 6 | 7)
+}
 
 /// Turns the faces of bodies of glass outwards, and returns a warning about them. A body within the box around
 /// another one is perhaps its bubble, and stays. `is_glass` is about the mesh of a number.

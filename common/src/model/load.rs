@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Result, ensure};
 use glam::Vec3;
 
-use super::glass::turn_outwards;
+use super::glass::{is_body, turn_outwards};
 use super::limits::Limits;
 use super::obj::Model;
 use super::obj_check::Check;
@@ -115,17 +115,12 @@ pub(crate) fn load_within(path: &Path, limits: &Limits, place: Place) -> Result<
     let mut meshes: Vec<_> =
         parts.into_iter().zip(numbers).map(|(part, number)| geometry.mesh(part, number)).collect();
     let mut warnings = warnings.lines();
-    let bodies: Vec<bool> = meshes.iter().map(|mesh| is_glass(&materials[mesh.material])).collect();
+    let bodies: Vec<bool> = meshes.iter().map(|mesh| is_body(&materials[mesh.material])).collect();
     warnings.extend(turn_outwards(&mut meshes, |mesh| bodies[mesh], &shown));
     warnings.extend(far.map(|what| format!("{shown}: {what}")));
     if !meshes.iter().any(Mesh::has_area) {
         let what = "none of its triangles has an area, and so nothing of it is seen";
         warnings.push(format!("{shown}: {what}"));
     }
-    Ok(Model { meshes, materials, textures, warnings, ambiguous })
-}
-
-/// True for the material of a body that refracts light.
-fn is_glass(material: &Material) -> bool {
-    matches!(material.illumination, 6 | 7)
+    Ok(Model { meshes, materials, textures, warnings, ambiguous, ..Model::default() })
 }

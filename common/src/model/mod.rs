@@ -1,11 +1,12 @@
-//! Files from untrusted sources: OBJ models, MTL materials, PNG and JPEG textures, read within limits, with a warning
-//! about faults that other loaders ignore.
+//! Files from untrusted sources: OBJ and glTF models, MTL materials, PNG and JPEG textures, read within limits, with a
+//! warning about faults that other loaders ignore.
 
 mod elements;
 mod encoding;
 mod face;
 mod folder;
 mod glass;
+pub mod gltf;
 mod index;
 mod limits;
 mod load;

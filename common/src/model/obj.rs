@@ -11,6 +11,7 @@ use glam::{Vec2, Vec3};
 pub use super::load::{load, load_centered};
 use super::text::{note_opened, shown};
 use super::texture::Texture;
+use crate::scene::light::LightSource;
 use crate::scene::material::Material;
 use crate::scene::mesh::{Mesh, Vertex};
 
@@ -37,6 +38,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// The textures of the materials.
     pub textures: Vec<Texture>,
+    /// The lights of the file, in the world.
+    pub lights: Vec<LightSource>,
     /// Warnings about the files and the replacements used, one line per kind, with file and line of the first and
     /// the count of all.
     pub warnings: Vec<String>,

@@ -47,15 +47,7 @@ impl Positions {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), position| {
                 (low.min(position), high.max(position))
             });
-        let size = (high - low).max_element();
-        let reach = low.abs().max(high.abs()).max_element();
-        (size > 0.0 && reach > FAR * size).then(|| {
-            // As round as its size allows, so that a message can state it.
-            let digits = -size.log10().floor();
-            let unit = 10f64.powf(-digits);
-            let middle = ((low + high) * 0.5 / unit).round() * unit;
-            Far { middle, size, reach, decimals: digits.clamp(0.0, 300.0) as usize }
-        })
+        Far::of(low, high)
     }
 
     /// Moves the origin to a point, in 64 bits.
@@ -78,6 +70,19 @@ pub(crate) struct Far {
 }
 
 impl Far {
+    /// The distance of a box from the origin, if it is far for its size.
+    pub fn of(low: DVec3, high: DVec3) -> Option<Self> {
+        let size = (high - low).max_element();
+        let reach = low.abs().max(high.abs()).max_element();
+        (size > 0.0 && reach > FAR * size).then(|| {
+            // As round as its size allows, so that a message can state it.
+            let digits = -size.log10().floor();
+            let unit = 10f64.powf(-digits);
+            let middle = ((low + high) * 0.5 / unit).round() * unit;
+            Self { middle, size, reach, decimals: digits.clamp(0.0, 300.0) as usize }
+        })
+    }
+
     /// The warning for a model that stays where it is.
     pub fn stays(&self) -> String {
         let Self { size, reach, .. } = self;

@@ -9,6 +9,8 @@ const MESH: usize = 3 * 32 + 12;
 /// The most bytes of a triangle on a device: the same, and its share of the acceleration structure and of the
 /// memory for building it. The software driver needs 370 to 420 (llvmpipe, Mesa 25.0.7).
 const DEVICE: usize = 512;
+/// The most bytes of a triangle, on the host and on a device.
+pub(crate) const TRIANGLE: usize = MESH + DEVICE;
 
 /// The number of each kind of element in an OBJ file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,7 +41,7 @@ impl Tally {
     pub fn bytes(&self) -> u64 {
         let &Self { text, positions, coordinates, normals, triangles, meshes, .. } = self;
         let attributes = 2 * (24 * positions + 8 * coordinates + 12 * normals);
-        let bytes = text + attributes + (MESH + DEVICE) * triangles + 1024 * meshes;
+        let bytes = text + attributes + TRIANGLE * triangles + 1024 * meshes;
         bytes as u64
     }
 

@@ -35,11 +35,7 @@ impl Text {
     /// # Errors
     /// If it is missing, larger, not a regular file, or not text.
     pub fn read(path: &Path, shown: String, limit: u64) -> Result<Self> {
-        let mut bytes = Vec::new();
-        open(path, &shown, limit)?
-            .take(limit)
-            .read_to_end(&mut bytes)
-            .map_err(|error| anyhow!("{shown}: cannot be read: {error}"))?;
+        let bytes = read(path, &shown, limit)?;
         check(&bytes, &shown).map_err(|error| anyhow!(Unavailable(error.to_string())))?;
         Ok(Self { shown, bytes })
     }
@@ -72,6 +68,19 @@ pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
     let file = regular(path, shown, limit)?;
     note_opened([path]);
     Ok(file)
+}
+
+/// The bytes of a file of a scene.
+///
+/// # Errors
+/// As [`regular`], or if it cannot be read.
+pub(crate) fn read(path: &Path, shown: &str, limit: u64) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open(path, shown, limit)?
+        .take(limit)
+        .read_to_end(&mut bytes)
+        .map_err(|error| anyhow!("{shown}: cannot be read: {error}"))?;
+    Ok(bytes)
 }
 
 /// Records files of a scene that were opened in another way.

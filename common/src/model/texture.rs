@@ -5,7 +5,7 @@ mod kind;
 mod png;
 
 use std::collections::HashMap;
-use std::io::{BufReader, Read, Seek};
+use std::io::{BufReader, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, ensure};
@@ -14,6 +14,7 @@ use image::ColorType;
 use super::limits::Limits;
 use super::text::{Named, note_opened, open};
 use super::warnings::{self, Warnings};
+use crate::gpu::Sampling;
 use kind::Kind;
 
 /// An image of 8 bits per channel.
@@ -31,6 +32,8 @@ pub struct Texture {
     /// True if RGB is sRGB encoded: for colours, but not for a file that is used only for opacity. Alpha is always
     /// linear.
     pub srgb: bool,
+    /// How it is read between its texels and beyond its edges.
+    pub sampling: Sampling,
 }
 
 impl Texture {
@@ -42,7 +45,8 @@ impl Texture {
         let image = image::open(path)?.into_rgba8();
         note_opened([path]);
         let (width, height) = image.dimensions();
-        Ok(Self { name, width, height, rgba: image.into_raw(), srgb: true })
+        let rgba = image.into_raw();
+        Ok(Self { name, width, height, rgba, srgb: true, sampling: Sampling::default() })
     }
 }
 
@@ -122,17 +126,28 @@ impl TextureFiles {
 impl TextureFile {
     /// Decodes the file, subtracting its size from the remaining bytes; returns also what is missing in it.
     fn decode(self, left: &mut u64, limits: &Limits) -> Result<(Texture, Option<String>)> {
-        let shown = &self.named.shown;
+        let file = open(&self.named.path, &self.named.shown, limits.texture_bytes)?;
+        let shown = self.named.shown.clone();
         let wrong = |what: anyhow::Error| anyhow!("{shown}: {what}");
-        let mut file = BufReader::new(open(&self.named.path, shown, limits.texture_bytes)?);
-        let unread = |error: std::io::Error| wrong(anyhow!("cannot be read: {error}"));
+        let (texture, missing) = self.decode_from(file, left, limits).map_err(wrong)?;
+        Ok((texture, missing.map(|what| format!("{shown}: {what}"))))
+    }
+
+    /// Decodes bytes, as [`TextureFile::decode`] does those of the file.
+    fn decode_from(
+        self,
+        file: impl Read + Seek,
+        left: &mut u64,
+        limits: &Limits,
+    ) -> Result<(Texture, Option<String>)> {
+        let mut file = BufReader::new(file);
+        let unread = |error: std::io::Error| anyhow!("cannot be read: {error}");
         let mut head = Vec::new();
         file.by_ref().take(kind::HEAD).read_to_end(&mut head).map_err(unread)?;
         file.rewind().map_err(unread)?;
-        let kind = Kind::of(&head).map_err(wrong)?;
-        let (image, missing) = match kind {
-            Kind::Png => (png::decode(file, &self, left, limits).map_err(wrong)?, None),
-            Kind::Jpeg => jpeg::decode(file, &self, left, limits).map_err(wrong)?,
+        let (image, missing) = match Kind::of(&head)? {
+            Kind::Png => (png::decode(file, &self, left, limits)?, None),
+            Kind::Jpeg => jpeg::decode(file, &self, left, limits)?,
         };
         let (width, height) = (image.width(), image.height());
         let luminance = self.wants_luminance(image.color()).then(|| image.to_luma8());
@@ -142,8 +157,9 @@ impl TextureFile {
         {
             texel[3] = *luminance;
         }
-        let missing = missing.map(|what| format!("{shown}: {what}"));
-        Ok((Texture { name: self.named.name, width, height, rgba, srgb: self.color }, missing))
+        let (name, srgb, sampling) = (self.named.name, self.color, Sampling::default());
+        let texture = Texture { name, width, height, rgba, srgb, sampling };
+        Ok((texture, missing.map(str::to_owned)))
     }
 
     fn wants_luminance(&self, color: ColorType) -> bool {
@@ -174,6 +190,34 @@ impl TextureFile {
         *left -= 4 * texels;
         Ok(())
     }
+}
+
+/// Decodes an image file for its colours, subtracting its size from the remaining bytes; returns also what is missing
+/// in it.
+///
+/// # Errors
+/// If it is too large or cannot be decoded.
+pub(crate) fn decode_file(
+    named: Named,
+    left: &mut u64,
+    limits: &Limits,
+) -> Result<(Texture, Option<String>)> {
+    TextureFile { named, place: String::new(), color: true, opacity: false }.decode(left, limits)
+}
+
+/// Decodes an image within another file, as [`decode_file`] does.
+///
+/// # Errors
+/// As [`decode_file`].
+pub(crate) fn decode_bytes(
+    bytes: &[u8],
+    name: String,
+    left: &mut u64,
+    limits: &Limits,
+) -> Result<(Texture, Option<String>)> {
+    let named = Named { name, ..Named::default() };
+    let file = TextureFile { named, place: String::new(), color: true, opacity: false };
+    file.decode_from(Cursor::new(bytes), left, limits)
 }
 
 /// Checks the sides of an image.

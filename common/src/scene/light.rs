@@ -50,6 +50,20 @@ pub struct PointLight {
     pub intensity: Vec3,
 }
 
+/// A light of a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightSource {
+    /// So far away that its rays are parallel.
+    Directional {
+        /// Unit vector towards the light.
+        direction: Vec3,
+        /// Linear RGB radiance.
+        radiance: Vec3,
+    },
+    /// At a point.
+    Point(PointLight),
+}
+
 common::shader_enum! {
     /// The kind of light (`shaders/common/light.glsl`).
     pub enum LightKind: LIGHT {
@@ -94,6 +108,17 @@ impl Light {
     /// A lamp.
     pub fn point(lamp: &PointLight) -> Self {
         Self { place: lamp.position, kind: LightKind::Point.into(), strength: lamp.intensity }
+    }
+}
+
+impl From<LightSource> for Light {
+    fn from(source: LightSource) -> Self {
+        match source {
+            LightSource::Directional { direction, radiance } => {
+                Self { place: direction, kind: LightKind::Directional.into(), strength: radiance }
+            }
+            LightSource::Point(lamp) => Self::point(&lamp),
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! The scene to render: camera, lights, meshes, materials, the chess world, and their upload.
 
 pub mod board;
-mod camera;
+pub(crate) mod camera;
 mod chess;
 mod inside_out;
-mod light;
+pub(crate) mod light;
 pub mod material;
 pub mod mesh;
 mod meshes;
@@ -13,11 +13,11 @@ pub mod plane;
 mod records;
 mod top_level;
 mod upload;
-mod world;
+pub(crate) mod world;
 
 pub use camera::{Camera, CameraBasis};
 pub use chess::{assets, place_position};
-pub use light::{DirectionalLight, DiskLight, Light, LightKind, PointLight, Sun};
+pub use light::{DirectionalLight, DiskLight, Light, LightKind, LightSource, PointLight, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, REACH, Vertex};
 pub use meshes::triangle_order;

@@ -7,8 +7,7 @@ use glam::{Affine3A, DVec3, Vec3};
 
 use super::top_level::check_transform;
 use super::{Camera, Mesh};
-use crate::model::Model;
-use crate::model::obj;
+use crate::model::{Model, gltf, obj};
 
 /// Meshes, materials and textures with their placements.
 #[derive(Clone)]
@@ -35,12 +34,15 @@ pub struct Instance {
 }
 
 impl Scene {
-    /// Opens an OBJ file: each mesh once, at its place in the file, with a camera that shows all of it. A model that is
-    /// far from the origin is moved there.
+    /// Opens a model. Of an OBJ file, each mesh is at its place in the file, with a camera that shows all of it; a glTF
+    /// file places its own meshes and may have a camera. A model that is far from the origin is moved there.
     ///
     /// # Errors
-    /// As [`obj::load`].
+    /// As [`obj::load`] or [`gltf::load`].
     pub fn open(path: &Path) -> Result<Self> {
+        if gltf::is_gltf(path) {
+            return gltf::load(path);
+        }
         let model = obj::load_centered(path)?;
         let instances = (0..model.meshes.len())
             .map(|mesh| Instance {
@@ -129,7 +131,8 @@ impl Scene {
         moved_bounds(self.model.meshes[instance.mesh].bounds(), &instance.transform)
     }
 
-    fn camera_on_all(&self) -> Camera {
+    /// A camera that shows all of the scene.
+    pub(crate) fn camera_on_all(&self) -> Camera {
         let (low, high) = self.bounds();
         let (low, high) = (low.as_dvec3(), high.as_dvec3());
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);

@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use crate::gpu::{Gpu, Image, Texels};
+use crate::gpu::{Gpu, Image, Sampling, Texels};
 
 /// The descriptor type of each texture.
 const TYPE: vk::DescriptorType = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
@@ -15,21 +15,23 @@ pub struct TextureTable {
     /// The set.
     pub set: vk::DescriptorSet,
     pool: vk::DescriptorPool,
-    sampler: vk::Sampler,
+    /// One for each way in which textures are sampled.
+    samplers: Vec<(Sampling, vk::Sampler)>,
     images: Vec<Image>,
     gpu: Gpu,
 }
 
 impl TextureTable {
-    /// A table of textures, numbered by position, repeated beyond their edges and filtered linearly. With
-    /// `mipmaps`, they have all mip levels, and a lookup between two levels blends them.
+    /// A table of textures, numbered by position. With `mipmaps`, they have all mip levels, and a lookup between two
+    /// levels blends them.
     ///
     /// # Errors
     /// If the device does not support so many.
     pub fn new(gpu: &Gpu, textures: &[Texels], mipmaps: bool) -> Result<Self> {
         // An empty array is not allowed, nor is a slot without a texture.
         let extent = vk::Extent2D { width: 1, height: 1 };
-        let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false }];
+        let sampling = Sampling::default();
+        let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false, sampling }];
         let textures = if textures.is_empty() { &none } else { textures };
         let count = textures.len() as u32;
         fits(count, gpu.limits.max_textures(), &gpu.name)?;
@@ -39,33 +41,27 @@ impl TextureTable {
             .flags(vk::DescriptorPoolCreateFlags::UPDATE_AFTER_BIND)
             .max_sets(1)
             .pool_sizes(&sizes);
-        let mut sampler_info = vk::SamplerCreateInfo::default()
-            .mag_filter(vk::Filter::LINEAR)
-            .min_filter(vk::Filter::LINEAR);
-        if mipmaps {
-            let between_levels = vk::SamplerMipmapMode::LINEAR;
-            sampler_info = sampler_info.mipmap_mode(between_levels).max_lod(vk::LOD_CLAMP_NONE);
-        }
         let mut table = Self {
             layout: Self::layout(gpu, count)?,
             set: vk::DescriptorSet::null(),
             pool: vk::DescriptorPool::null(),
-            sampler: vk::Sampler::null(),
+            samplers: Vec::new(),
             images,
             gpu: gpu.clone(),
         };
         // SAFETY: the device is alive; whatever was made is destroyed with the table.
         unsafe {
             table.pool = gpu.device.create_descriptor_pool(&pool_info, None)?;
-            table.sampler = gpu.device.create_sampler(&sampler_info, None)?;
             let layouts = [table.layout];
             let allocate = vk::DescriptorSetAllocateInfo::default()
                 .descriptor_pool(table.pool)
                 .set_layouts(&layouts);
             table.set = gpu.device.allocate_descriptor_sets(&allocate)?[0];
         }
-        let infos = table.images.iter().map(|image| vk::DescriptorImageInfo {
-            sampler: table.sampler,
+        let used = textures.iter().map(|texels| table.sampler(texels.sampling, mipmaps));
+        let used: Vec<_> = used.collect::<Result<_>>()?;
+        let infos = table.images.iter().zip(used).map(|(image, sampler)| vk::DescriptorImageInfo {
+            sampler,
             image_view: image.view,
             image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
         });
@@ -80,8 +76,21 @@ impl TextureTable {
         gpu.name_object(table.set, name);
         gpu.name_object(table.layout, name);
         gpu.name_object(table.pool, name);
-        gpu.name_object(table.sampler, name);
+        for (_, sampler) in &table.samplers {
+            gpu.name_object(*sampler, name);
+        }
         Ok(table)
+    }
+
+    /// The sampler for textures that are sampled so, made if it is the first.
+    fn sampler(&mut self, sampling: Sampling, mipmaps: bool) -> Result<vk::Sampler> {
+        if let Some((_, known)) = self.samplers.iter().find(|(known, _)| *known == sampling) {
+            return Ok(*known);
+        }
+        // SAFETY: the device is alive; the sampler is destroyed with the table.
+        let sampler = unsafe { self.gpu.device.create_sampler(&sampling.info(mipmaps), None)? };
+        self.samplers.push((sampling, sampler));
+        Ok(sampler)
     }
 
     /// Number of textures, at least one.
@@ -126,7 +135,9 @@ impl Drop for TextureTable {
         unsafe {
             self.gpu.device.destroy_descriptor_pool(self.pool, None);
             self.gpu.device.destroy_descriptor_set_layout(self.layout, None);
-            self.gpu.device.destroy_sampler(self.sampler, None);
+            for (_, sampler) in &self.samplers {
+                self.gpu.device.destroy_sampler(*sampler, None);
+            }
         }
     }
 }

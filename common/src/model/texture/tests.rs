@@ -55,7 +55,10 @@ fn rows_come_from_the_top_and_alpha_is_kept() {
             .unwrap();
     let rgba = texels.concat();
     let name = "my tex/t 1.png".to_owned();
-    assert_eq!(textures, [Texture { name, width: 2, height: 2, rgba, srgb: true }]);
+    assert_eq!(
+        textures,
+        [Texture { name, width: 2, height: 2, rgba, srgb: true, sampling: Sampling::default() }]
+    );
     assert_eq!(materials[0].base_texture, Some(0));
     assert_eq!(materials[0].base_color, glam::Vec3::ONE);
 }

@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 use ash::vk;
 
 use super::{Gpu, Image, mipmaps};
+use crate::gpu::Sampling;
 use crate::gpu::memory::staging::Staging;
 
 /// The contents of a texture.
@@ -17,6 +18,8 @@ pub struct Texels<'a> {
     pub rgba: &'a [u8],
     /// True if RGB is sRGB encoded.
     pub srgb: bool,
+    /// How it is read between its texels and beyond its edges.
+    pub sampling: Sampling,
 }
 
 impl Image {
@@ -41,7 +44,7 @@ impl Image {
 }
 
 fn blank(gpu: &Gpu, texels: &Texels, mipmaps: bool) -> Result<Image> {
-    let Texels { name, extent, rgba, srgb } = *texels;
+    let Texels { name, extent, rgba, srgb, .. } = *texels;
     let needed = 4 * extent.width as usize * extent.height as usize;
     ensure!(rgba.len() == needed, "texture '{name}' has {} bytes, not {needed}", rgba.len());
     let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };

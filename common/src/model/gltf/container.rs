@@ -1,0 +1,123 @@
+//! The two forms of a glTF file: JSON as text, or a binary container (GLB) of JSON and one buffer.
+
+use std::ops::Range;
+
+use anyhow::{Result, anyhow, bail, ensure};
+use gltf::json::Root;
+
+/// The first bytes of a GLB file.
+pub(super) const MAGIC: &[u8] = b"glTF";
+
+/// Bytes of the header of a GLB file: magic, version, length.
+const HEADER: usize = 12;
+
+/// Bytes of the header of a chunk: length, kind.
+const CHUNK: usize = 8;
+
+/// Bytes that an object of the JSON part may take in memory; the largest, a material, has 600.
+const OBJECT: u64 = 1024;
+
+/// The JSON part of a file and the place of its buffer.
+pub(super) struct Parts {
+    /// The JSON part.
+    pub json: Range<usize>,
+    /// The contents of the first buffer, if the file brings it.
+    pub buffer: Option<Range<usize>>,
+}
+
+impl Parts {
+    /// The parts of a file.
+    ///
+    /// # Errors
+    /// If a GLB file is cut off, of another version, or without JSON.
+    pub fn of(bytes: &[u8]) -> Result<Self> {
+        if !bytes.starts_with(MAGIC) {
+            let start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+            return Ok(Self { json: start..bytes.len(), buffer: None });
+        }
+        let version = number(bytes, 4)?;
+        ensure!(version == 2, "is glTF {version}, and glTF 2 is read; export it again as glTF 2.0");
+        let length = number(bytes, 8)? as usize;
+        ensure!(
+            length <= bytes.len(),
+            "is cut off: it has {} of {length} bytes; copy it again",
+            bytes.len()
+        );
+        let json = chunk(bytes, HEADER)?.filter(|chunk| chunk.kind == *b"JSON");
+        let Some(json) = json else { bail!("has no JSON part first, as a GLB file has") };
+        let next = json.range.end.next_multiple_of(4);
+        let buffer = chunk(bytes, next)?.filter(|chunk| chunk.kind == *b"BIN\0");
+        Ok(Self { json: json.range, buffer: buffer.map(|chunk| chunk.range) })
+    }
+}
+
+/// A part of a GLB file.
+struct Chunk {
+    kind: [u8; 4],
+    range: Range<usize>,
+}
+
+/// The chunk that starts at a byte; none at the end of the file.
+fn chunk(bytes: &[u8], at: usize) -> Result<Option<Chunk>> {
+    if at + CHUNK > bytes.len() {
+        return Ok(None);
+    }
+    let length = number(bytes, at)? as usize;
+    let mut kind = [0; 4];
+    kind.copy_from_slice(&bytes[at + 4..at + CHUNK]);
+    let range = at + CHUNK..at + CHUNK + length;
+    ensure!(range.end <= bytes.len(), "is cut off within a part of {length} bytes; copy it again");
+    Ok(Some(Chunk { kind, range }))
+}
+
+/// The little-endian number at a byte.
+fn number(bytes: &[u8], at: usize) -> Result<u32> {
+    match bytes.get(at..at + 4) {
+        Some(&[a, b, c, d]) => Ok(u32::from_le_bytes([a, b, c, d])),
+        _ => bail!("is cut off: it ends in its header; copy it again"),
+    }
+}
+
+/// Parses the JSON part.
+///
+/// # Errors
+/// If it is not JSON, not glTF 2, or would take more than `memory` bytes; says where.
+pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
+    // Three bytes make an object, so a small file could take all memory.
+    let objects = json.iter().filter(|&&byte| byte == b'{').count() as u64;
+    let need = objects * OBJECT + 8 * json.len() as u64;
+    ensure!(
+        need <= memory,
+        "would take up to {need} bytes of memory for the {objects} objects of its JSON part; at most {memory} \
+         are taken"
+    );
+    serde_json::from_slice(json).map_err(|error| {
+        let place = match (is_text, error.line()) {
+            (_, 0) => String::new(),
+            (true, line) => format!("line {line}: "),
+            (false, 1) => format!("byte {} of its JSON part: ", error.column()),
+            (false, line) => format!("line {line} of its JSON part: "),
+        };
+        anyhow!("{place}{}", reason(&error))
+    })
+}
+
+/// The reason of the parser in our own words, which name what it names.
+fn reason(error: &serde_json::Error) -> String {
+    use serde_json::error::Category;
+    match error.classify() {
+        Category::Eof => "the JSON ends too soon; the file is perhaps cut off".to_owned(),
+        Category::Io => "cannot be read".to_owned(),
+        Category::Syntax => "is not JSON, so this is no glTF file, or a damaged one".to_owned(),
+        Category::Data => {
+            let said = error.to_string();
+            let name = |after: &str| Some(said.split_once(after)?.1.split('`').nth(1)?.to_owned());
+            match (name("missing field"), name("unknown variant"), name("duplicate field")) {
+                (Some(key), _, _) => format!("the key \"{key}\" is missing, which glTF 2 demands"),
+                (_, Some(value), _) => format!("\"{value}\" is no value that glTF 2 has here"),
+                (_, _, Some(key)) => format!("the key \"{key}\" is there twice"),
+                _ => "a value of another type than glTF 2 has here".to_owned(),
+            }
+        }
+    }
+}

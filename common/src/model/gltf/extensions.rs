@@ -1,0 +1,59 @@
+//! The extensions of glTF: those that are read, and a line about the others.
+
+use anyhow::{Result, ensure};
+use gltf::json::Root;
+
+use super::features::Features;
+use crate::model::text::quoted;
+
+/// Extensions that are read, or change nothing of what is shown.
+const READ: [&str; 10] = [
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    // Accessors of all component types are read.
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    // Metadata.
+    "KHR_xmp_json_ld",
+];
+
+/// Checks the extensions of a file. Those that it merely uses get a warning.
+///
+/// # Errors
+/// Names one that the file requires and that is not read, and what to do about it.
+pub(super) fn check(root: &Root, features: &mut Features) -> Result<()> {
+    let is_read = |name: &&String| READ.contains(&name.as_str());
+    if let Some(name) = root.extensions_required.iter().find(|name| !is_read(name)) {
+        let cure = match name.as_str() {
+            "KHR_draco_mesh_compression"
+            | "EXT_meshopt_compression"
+            | "KHR_meshopt_compression" => {
+                "its geometry is compressed; export it without compression"
+            }
+            "KHR_texture_basisu" => "its textures are KTX files; export it with PNG or JPEG",
+            "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
+                "its textures are of a kind that is not read; export it with PNG or JPEG"
+            }
+            _ => "export it without",
+        };
+        ensure!(false, "requires the extension {}, which is not read: {cure}", quoted(name));
+    }
+    let mut others: Vec<_> = root.extensions_used.iter().filter(|name| !is_read(name)).collect();
+    others.sort_unstable();
+    others.dedup();
+    const NAMED: usize = 4;
+    if !others.is_empty() {
+        let names: Vec<_> = others.iter().take(NAMED).map(|name| quoted(name)).collect();
+        let more = if others.len() > NAMED { " and others" } else { "" };
+        let names = names.join(", ");
+        features.note("extensions", others.len(), || {
+            format!("uses {names}{more}, which are not read; the model is shown without")
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,275 @@
+//! A material of glTF in the terms of today's chapters: a diffuse colour, a highlight, a mirror, glass, emission.
+//!
+//! Metal and roughness are approximated: a smooth metal becomes a mirror of its colour, a rough one a matte surface
+//! of it.
+
+use glam::{Vec2, Vec3, Vec4};
+use gltf::json::extensions::material::Volume;
+use gltf::json::material::{AlphaMode, Material as Source};
+use gltf::json::texture::Info;
+use gltf::json::validation::Checked;
+
+use super::features::Features;
+use super::image::{Images, Use};
+use crate::model::text::quoted;
+use crate::scene::material::Material;
+
+/// The roughness below which a surface reflects an image.
+const MIRROR: f32 = 0.25;
+/// The part of the light that glass and plastic reflect head-on.
+const DIELECTRIC: f32 = 0.04;
+/// The largest exponent of a highlight: that of a roughness of 0.01.
+const SHARPEST: f32 = 2e8;
+
+/// Illumination models of an MTL file.
+const HIGHLIGHT: u32 = 2;
+const REFLECTION: u32 = 3;
+const SHEET: u32 = 4;
+const BODY: u32 = 7;
+
+/// The texture coordinates that a material reads: a set of the mesh, and what is done to it.
+#[derive(Clone, Copy)]
+pub(super) struct Coordinates {
+    /// The number of the set.
+    pub set: u32,
+    offset: Vec2,
+    rotation: f32,
+    scale: Vec2,
+}
+
+impl Default for Coordinates {
+    fn default() -> Self {
+        Self { set: 0, offset: Vec2::ZERO, rotation: 0.0, scale: Vec2::ONE }
+    }
+}
+
+impl Coordinates {
+    /// Those of a texture (`KHR_texture_transform`).
+    fn of_texture(info: &Info) -> Self {
+        let transform = info.extensions.as_ref().and_then(|all| all.texture_transform.as_ref());
+        let Some(transform) = transform else {
+            return Self { set: info.tex_coord, ..Self::default() };
+        };
+        Self {
+            set: transform.tex_coord.unwrap_or(info.tex_coord),
+            offset: Vec2::from(transform.offset.0),
+            rotation: transform.rotation.0,
+            scale: Vec2::from(transform.scale.0),
+        }
+    }
+
+    /// Scales a point, turns it counter-clockwise as seen with v upwards, and moves it.
+    pub fn of(&self, uv: Vec2) -> Vec2 {
+        let (sin, cos) = self.rotation.sin_cos();
+        let Vec2 { x, y } = uv * self.scale;
+        self.offset + Vec2::new(cos * x + sin * y, cos * y - sin * x)
+    }
+}
+
+/// A material, and the texture coordinates it reads.
+#[derive(Clone, Default)]
+pub(super) struct Look {
+    pub material: Material,
+    pub coordinates: Coordinates,
+}
+
+/// The values of metallic-roughness, or of specular-glossiness in its terms.
+struct Values<'a> {
+    color: Vec4,
+    texture: Option<&'a Info>,
+    metallic: f32,
+    roughness: f32,
+    /// Reflectance head-on; else it follows from the others.
+    specular: Option<Vec3>,
+}
+
+impl Look {
+    /// The material that glTF gives to a primitive without one.
+    pub fn of_none() -> Self {
+        let material =
+            Material { name: "default".to_owned(), base_color: Vec3::ONE, ..Material::default() };
+        Self { material, ..Self::default() }
+    }
+
+    /// Material `number` of a file.
+    pub fn of(
+        source: &Source,
+        number: usize,
+        images: &mut Images,
+        features: &mut Features,
+    ) -> Self {
+        let name = source.name.clone().unwrap_or_else(|| format!("material {number}"));
+        let place = || format!("material {number}, {},", quoted(&name));
+        let values = Values::of(source, images, features);
+        let color = values.color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
+        let metallic = values.metallic.clamp(0.0, 1.0);
+        let roughness = values.roughness.clamp(0.0, 1.0);
+        let is_mirror = roughness < MIRROR && metallic > 0.5 || roughness < 0.05;
+        if metallic > 0.0 && metallic < 1.0 || (MIRROR..1.0).contains(&roughness) {
+            let what = "metal and roughness are approximated: smooth metal is a mirror, rough metal is matte";
+            features.note("rough", 1, || format!("{} is {}; {what}", place(), amount(&values)));
+        }
+        let reflectance = Vec3::splat(DIELECTRIC).lerp(color, metallic);
+        let mut material = Material {
+            base_color: color,
+            specular: match values.specular {
+                Some(specular) => specular.clamp(Vec3::ZERO, Vec3::ONE),
+                None if is_mirror => reflectance,
+                // A rough metal's reflection is as its colour, which the matte surface shows.
+                None => Vec3::splat(DIELECTRIC),
+            },
+            shininess: exponent(roughness),
+            illumination: if is_mirror { REFLECTION } else { HIGHLIGHT },
+            name: name.clone(),
+            ..Material::default()
+        };
+        let mut look = Self::default();
+        if let Some(info) = values.texture {
+            look.coordinates = Coordinates::of_texture(info);
+        }
+        set_alpha(&mut material, source, &values, images, features, &place());
+        set_glass(&mut material, source, features, &place());
+        set_emission(&mut material, source, features, &place());
+        if source.normal_texture.is_some() {
+            features.note("normal", 1, || {
+                format!("{} has a normal map; it is left out, the surface is smooth", place())
+            });
+        }
+        if source.extensions.as_ref().is_some_and(|all| all.unlit.is_some()) {
+            features.note("unlit", 1, || format!("{} is unlit; it is shown in light", place()));
+        }
+        Self { material, ..look }
+    }
+}
+
+impl<'a> Values<'a> {
+    fn of(source: &'a Source, images: &mut Images, features: &mut Features) -> Self {
+        let extensions = source.extensions.as_ref();
+        if let Some(old) = extensions.and_then(|all| all.pbr_specular_glossiness.as_ref()) {
+            return Self {
+                color: Vec4::from(old.diffuse_factor.0),
+                texture: old.diffuse_texture.as_ref(),
+                metallic: 0.0,
+                roughness: 1.0 - old.glossiness_factor.0,
+                specular: Some(Vec3::from(old.specular_factor.0)),
+            };
+        }
+        let pbr = &source.pbr_metallic_roughness;
+        // One value stands for the texture of both: roughness is in green, metal in blue.
+        let texture = pbr.metallic_roughness_texture.as_ref();
+        let mean = texture.and_then(|info| images.mean(info.index, features)).unwrap_or(Vec3::ONE);
+        Self {
+            color: Vec4::from(pbr.base_color_factor.0),
+            texture: pbr.base_color_texture.as_ref(),
+            metallic: pbr.metallic_factor.0 * mean.z,
+            roughness: pbr.roughness_factor.0 * mean.y,
+            specular: None,
+        }
+    }
+}
+
+/// Metal and roughness in a message.
+fn amount(values: &Values) -> String {
+    let Values { metallic, roughness, .. } = values;
+    format!("{:.0} % metal, with the roughness {roughness:.2}", 100.0 * metallic)
+}
+
+/// The exponent of a Blinn-Phong highlight as wide as the GGX one of a roughness (Walter et al. 2007, by Karis
+/// 2013): 2 / roughness^4 - 2.
+fn exponent(roughness: f32) -> f32 {
+    (2.0 / roughness.powi(4).max(1e-30) - 2.0).clamp(0.0, SHARPEST)
+}
+
+/// The texture of the colour, and holes or transparency by its alpha.
+fn set_alpha(
+    material: &mut Material,
+    source: &Source,
+    values: &Values,
+    images: &mut Images,
+    features: &mut Features,
+    place: &str,
+) {
+    let alpha = values.color.w.clamp(0.0, 1.0);
+    let mode = match source.alpha_mode {
+        Checked::Valid(mode) => mode,
+        Checked::Invalid => AlphaMode::Opaque,
+    };
+    let cutoff = source.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
+    let needed = if alpha > 0.0 { cutoff / alpha } else { f32::INFINITY };
+    let has_holes = mode == AlphaMode::Mask && needed > 0.0;
+    let for_what = if has_holes { Use::Cutout(needed) } else { Use::Color };
+    let texture = values.texture.and_then(|info| images.texture(info.index, for_what, features));
+    material.base_texture = texture.map(|texture| texture.index);
+    let is_alpha = |texture: &super::image::Loaded| texture.has_alpha.then_some(texture.index);
+    match mode {
+        AlphaMode::Opaque => {}
+        AlphaMode::Mask if !has_holes => {}
+        AlphaMode::Mask => {
+            material.opacity_texture = texture.as_ref().and_then(is_alpha);
+            if material.opacity_texture.is_none() && needed > 1.0 {
+                features.note("hidden", 1, || {
+                    format!("{place} cuts all of its surface away; it is shown whole")
+                });
+            }
+        }
+        AlphaMode::Blend => {
+            material.opacity_texture = texture.as_ref().and_then(is_alpha);
+            material.opacity = alpha;
+            if alpha == 0.0 {
+                material.opacity = 1.0;
+                features.note("clear", 1, || {
+                    format!("{place} has the alpha 0, of which nothing is seen; it is shown opaque")
+                });
+            }
+        }
+    }
+}
+
+/// Glass: a sheet by `KHR_materials_transmission`, a body if it has a volume.
+fn set_glass(material: &mut Material, source: &Source, features: &mut Features, place: &str) {
+    let Some(extensions) = &source.extensions else { return };
+    let index = extensions.ior.as_ref().map_or(1.5, |ior| ior.ior.0);
+    let Some(transmission) = &extensions.transmission else { return };
+    let factor = transmission.transmission_factor.0.clamp(0.0, 1.0);
+    if transmission.transmission_texture.is_some() {
+        features.note("transmission", 1, || {
+            format!("{place} has a texture of its transmission; its factor counts everywhere")
+        });
+    }
+    if factor < 0.5 {
+        return;
+    }
+    let volume = extensions.volume.as_ref().filter(|volume| volume.thickness_factor.0 > 0.0);
+    material.illumination = if volume.is_some() { BODY } else { SHEET };
+    material.refraction = if index >= 1.0 { index } else { 1.5 };
+    material.transmission = match volume {
+        Some(volume) => through_a_unit(volume),
+        None => material.base_color,
+    };
+    material.specular = Vec3::splat(DIELECTRIC);
+}
+
+/// The part of the light that comes through one unit of a body.
+fn through_a_unit(volume: &Volume) -> Vec3 {
+    let color = Vec3::from(volume.attenuation_color.0).clamp(Vec3::splat(1e-6), Vec3::ONE);
+    let distance = volume.attenuation_distance.0;
+    if distance > 0.0 { color.powf(1.0 / distance) } else { Vec3::ONE }
+}
+
+fn set_emission(material: &mut Material, source: &Source, features: &mut Features, place: &str) {
+    let strength = source.extensions.as_ref().and_then(|all| all.emissive_strength.as_ref());
+    let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
+    let emission = Vec3::from(source.emissive_factor.0) * strength;
+    if emission == Vec3::ZERO {
+        return;
+    }
+    if source.emissive_texture.is_some() {
+        features.note("emission", 1, || {
+            format!("{place} shines by a texture, which is not read; it does not shine")
+        });
+        return;
+    }
+    if emission.is_finite() {
+        material.emission = emission.max(Vec3::ZERO);
+    }
+}
