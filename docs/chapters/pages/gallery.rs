@@ -17,6 +17,7 @@ const AFTER: &[(&str, &str)] = &[
     ("command-line.md", "The command line"),
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
+    ("depth-and-occlusion.md", "Depth and ambient occlusion"),
     ("reordering.md", "Threads that change places"),
     ("prices.md", "What accuracy costs"),
     ("measured.md", "Everything measured"),
