@@ -18,6 +18,7 @@ const AFTER: &[(&str, &str)] = &[
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
     ("reordering.md", "Threads that change places"),
+    ("builders-and-boxes.md", "Builders and box tests"),
     ("prices.md", "What accuracy costs"),
     ("measured.md", "Everything measured"),
     ("on-a-gpu.md", "On a GPU"),
