@@ -19,6 +19,7 @@ const AFTER: &[(&str, &str)] = &[
     ("shadow-start.md", "How high a shadow ray starts"),
     ("depth-and-occlusion.md", "Depth and ambient occlusion"),
     ("reordering.md", "Threads that change places"),
+    ("builders-and-boxes.md", "Builders and box tests"),
     ("prices.md", "What accuracy costs"),
     ("measured.md", "Everything measured"),
     ("on-a-gpu.md", "On a GPU"),
