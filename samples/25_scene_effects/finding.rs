@@ -94,7 +94,7 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Emitters => scene.lamp().map(|m| format!("material `{}` shines", m.name)),
         Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),
         Wireframe => finished(&|finish| (finish.lines > 0.0).then(|| "has lines".to_owned())),
-        AntiAliasing => (scene.samples > 1).then(|| format!("{} rays a pixel", scene.samples)),
+        AntiAliasing => (scene.samples > 1).then(|| format!("{} rays per pixel", scene.samples)),
         DepthOfField => (scene.lens.diameter > 0.0)
             .then(|| format!("the camera has a lens of diameter {}", scene.lens.diameter)),
         MotionBlur => count(scene.moving(), "sphere").map(|n| format!("{n} under way")),
@@ -122,7 +122,7 @@ fn why_not(effect: Effect) -> &'static str {
         Emitters => "no sphere and no mesh shines, or nothing scatters light",
         Patterns => "no material in use has a pattern",
         Wireframe => "no material in use has lines",
-        AntiAliasing => "one ray a pixel",
+        AntiAliasing => "one ray per pixel",
         DepthOfField => "the camera is a pinhole",
         MotionBlur => "nothing moves while the shutter is open",
     }

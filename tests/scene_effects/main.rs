@@ -447,7 +447,7 @@ fn the_page_of_the_format_is_true() {
     };
     let scene = opened(example).unwrap();
     assert_eq!((scene.spheres.len(), scene.lights.len()), (1, 1));
-    let (_, rows) = page.split_once("| a line | what is said |\n|---|---|\n").unwrap();
+    let (_, rows) = page.split_once("| line | message |\n|---|---|\n").unwrap();
     let rows: Vec<_> = rows.lines().take_while(|line| line.starts_with('|')).collect();
     for row in &rows {
         let cells: Vec<_> = row.trim_matches('|').split(" | ").map(str::trim).collect();
