@@ -3,6 +3,7 @@
 
 mod arguments;
 mod failures;
+mod gltf_models;
 mod hazards;
 #[cfg(target_os = "linux")]
 mod limits;

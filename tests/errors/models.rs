@@ -34,6 +34,34 @@ fn files_refused(files: &[(&str, &[u8])], words: &[&str]) {
 }
 
 #[test]
+fn a_gltf_file_is_shown_or_refused() {
+    let assets = run::root().join("samples/assets");
+    let file = |name: &str| fs::read(assets.join(name)).unwrap();
+    let (json, buffer, picture) = (file("chess.gltf"), file("chess.bin"), file("fretwork.png"));
+    let whole: [(&str, &[u8]); 3] =
+        [("model.obj", &[]), ("chess.gltf", &json), ("chess.bin", &buffer)];
+    let with_picture = [&whole[..], &[("fretwork.png", &picture)]].concat();
+    let run = |files: &[(&str, &[u8])]| {
+        let folder = folder(files);
+        let mut command = sample();
+        command.current_dir(&folder).args(["--validate", "--scene", "chess.gltf"]);
+        let output = command.output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, said) = run(&with_picture);
+    assert_eq!((code, said.lines().count()), (Some(0), 2), "{said}");
+    assert!(
+        said.contains("has lights; this one has its own; 25_scene_effects shows them (2 in all)")
+    );
+    let (code, said) = run(&whole);
+    let gone = "image 0: its URI names \"fretwork.png\", which is not there; the plain colour stands for it";
+    assert!(code == Some(0) && said.contains(gone), "{said}");
+    let (code, said) = run(&[whole[1]]);
+    let gone = "error: chess.gltf: nothing to show: a part of mesh \"board\" is left out: ";
+    assert!(code == Some(1) && said.contains(gone) && said.lines().count() == 1, "{said}");
+}
+
+#[test]
 fn objects_that_are_wrong() {
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (text, words) in [

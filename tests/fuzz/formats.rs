@@ -2,6 +2,7 @@
 
 pub mod cases;
 pub mod game;
+pub mod gltf;
 pub mod legs;
 pub mod object;
 pub mod scene;
@@ -16,7 +17,7 @@ use std::path::Path;
 use crate::format::{Format, Function};
 
 /// Readers in this process, each with the number of inputs that `cargo test` tries: a few seconds' worth.
-pub const FUNCTIONS: [(Format, Function, usize); 8] = [
+pub const FUNCTIONS: [(Format, Function, usize); 9] = [
     (object::FORMAT, object::FUNCTION, 8000),
     (object::MATERIAL_FORMAT, object::MATERIAL_FUNCTION, 8000),
     (texture::FORMAT, texture::FUNCTION, 2000),
@@ -25,6 +26,7 @@ pub const FUNCTIONS: [(Format, Function, usize); 8] = [
     (legs::FORMAT, legs::FUNCTION, 3000),
     (sums::FORMAT, sums::FUNCTION, 8000),
     (settings::FORMAT, settings::FUNCTION, 8000),
+    (gltf::FORMAT, gltf::FUNCTION, 3000),
 ];
 
 /// The files of a folder of the corpus, in the order of their names.

@@ -30,4 +30,5 @@ tests! {
     files_of_legs: 5,
     files_of_sums: 6,
     settings_of_controls: 7,
+    gltf_files: 8,
 }

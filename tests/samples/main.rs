@@ -14,6 +14,7 @@ mod far_from_origin;
 mod filtered_checker;
 mod foundation;
 mod glass;
+mod gltf;
 mod golden;
 mod heightfield;
 mod infinite_plane;

@@ -1,5 +1,5 @@
 //! Makes the one world of this book: writes `chess.obj`, `chess.mtl` and `fretwork.png` next to
-//! this directory, the same bytes on every run.
+//! this directory, and the same as glTF, `chess.gltf` and `chess.bin`, the same bytes on every run.
 //!
 //! `chess_set --check` writes nothing and fails if a file differs from what it would write.
 
@@ -7,6 +7,7 @@ mod board;
 mod cross;
 mod cut;
 mod fretwork;
+mod gltf;
 mod knight;
 mod lathe;
 mod mesh;
@@ -59,10 +60,13 @@ fn make(check: bool) -> Result<()> {
     picture.write_to(&mut png, ImageFormat::Png)?;
 
     let directory = Path::new(DIRECTORY);
+    let gltf::Files { json, buffer } = gltf::write(&objects, "chess.bin", "fretwork.png");
     let files = [
         ("chess.obj", obj::write(&objects, "chess.mtl").into_bytes()),
         ("chess.mtl", obj::materials("fretwork.png").into_bytes()),
         ("fretwork.png", png.into_inner()),
+        ("chess.gltf", json.into_bytes()),
+        ("chess.bin", buffer),
     ];
     for (name, bytes) in files {
         let path = directory.join(name);

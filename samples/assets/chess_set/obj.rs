@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::mesh::{Mesh, QUANTUM};
 
 /// Normals and texture coordinates are written in multiples of this.
-const ATTRIBUTE_QUANTUM: f64 = 1e-4;
+pub const ATTRIBUTE_QUANTUM: f64 = 1e-4;
 
 /// A mesh with the names that the file gives it.
 pub struct Object {

@@ -113,7 +113,7 @@ fn reason(error: &serde_json::Error) -> String {
             let said = error.to_string();
             let name = |after: &str| Some(said.split_once(after)?.1.split('`').nth(1)?.to_owned());
             match (name("missing field"), name("unknown variant"), name("duplicate field")) {
-                (Some(key), _, _) => format!("the key \"{key}\" is missing, which glTF 2 demands"),
+                (Some(key), _, _) => format!("the key \"{key}\" is missing here"),
                 (_, Some(value), _) => format!("\"{value}\" is no value that glTF 2 has here"),
                 (_, _, Some(key)) => format!("the key \"{key}\" is there twice"),
                 _ => "a value of another type than glTF 2 has here".to_owned(),

@@ -43,16 +43,16 @@ pub(super) fn check(root: &Root, features: &mut Features) -> Result<()> {
         };
         ensure!(false, "requires the extension {}, which is not read: {cure}", quoted(name));
     }
+    const NAMED: usize = 4;
     let mut others: Vec<_> = root.extensions_used.iter().filter(|name| !is_read(name)).collect();
     others.sort_unstable();
     others.dedup();
-    const NAMED: usize = 4;
     if !others.is_empty() {
         let names: Vec<_> = others.iter().take(NAMED).map(|name| quoted(name)).collect();
         let more = if others.len() > NAMED { " and others" } else { "" };
         let names = names.join(", ");
         features.note("extensions", others.len(), || {
-            format!("uses {names}{more}, which are not read; the model is shown without")
+            format!("uses extensions that are not read, {names}{more}; the model is shown without")
         });
     }
     Ok(())

@@ -21,6 +21,9 @@ const DIELECTRIC: f32 = 0.04;
 /// The largest exponent of a highlight: that of a roughness of 0.01.
 const SHARPEST: f32 = 2e8;
 
+/// The largest colour of a surface of which little is seen in light.
+const DARK: f32 = 0.01;
+
 /// Illumination models of an MTL file.
 const HIGHLIGHT: u32 = 2;
 const REFLECTION: u32 = 3;
@@ -129,7 +132,10 @@ impl Look {
         }
         set_alpha(&mut material, source, &values, images, features, &place());
         set_glass(&mut material, source, features, &place());
-        set_emission(&mut material, source, features, &place());
+        if set_emission(&mut material, source, images, features, &place()) {
+            look.coordinates =
+                source.emissive_texture.as_ref().map_or(look.coordinates, Coordinates::of_texture);
+        }
         if source.normal_texture.is_some() {
             features.note("normal", 1, || {
                 format!("{} has a normal map; it is left out, the surface is smooth", place())
@@ -256,20 +262,31 @@ fn through_a_unit(volume: &Volume) -> Vec3 {
     if distance > 0.0 { color.powf(1.0 / distance) } else { Vec3::ONE }
 }
 
-fn set_emission(material: &mut Material, source: &Source, features: &mut Features, place: &str) {
+/// Light of the surface's own. Returns true if a texture of it stands for the surface's colour.
+fn set_emission(
+    material: &mut Material,
+    source: &Source,
+    images: &mut Images,
+    features: &mut Features,
+    place: &str,
+) -> bool {
     let strength = source.extensions.as_ref().and_then(|all| all.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
     let emission = Vec3::from(source.emissive_factor.0) * strength;
-    if emission == Vec3::ZERO {
-        return;
+    if emission == Vec3::ZERO || !emission.is_finite() {
+        return false;
     }
-    if source.emissive_texture.is_some() {
-        features.note("emission", 1, || {
-            format!("{place} shines by a texture, which is not read; it does not shine")
-        });
-        return;
-    }
-    if emission.is_finite() {
+    let Some(info) = &source.emissive_texture else {
         material.emission = emission.max(Vec3::ZERO);
-    }
+        return false;
+    };
+    // A label or a screen: nothing would be seen of it without its light.
+    let is_dark = material.base_color.max_element() < DARK && material.base_texture.is_none();
+    let texture = if is_dark { images.texture(info.index, Use::Color, features) } else { None };
+    let instead = if texture.is_some() { "is its colour instead" } else { "is left out" };
+    features.note("emission", 1, || format!("{place} shines by a texture, which {instead}"));
+    let Some(texture) = texture else { return false };
+    material.base_texture = Some(texture.index);
+    material.base_color = Vec3::ONE;
+    true
 }

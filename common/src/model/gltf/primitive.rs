@@ -38,10 +38,10 @@ impl File {
         features: &mut Features,
     ) -> Result<Mesh> {
         let Checked::Valid(mode) = primitive.mode else {
-            anyhow::bail!("has a mode that glTF 2 does not have");
+            anyhow::bail!("it has a mode that glTF 2 does not have");
         };
         let positions = self.attribute(primitive, Semantic::Positions);
-        let positions = positions.context("has no positions")?;
+        let positions = positions.context("it has no positions")?;
         let mut positions: Vec<_> =
             self.floats::<3>(positions)?.into_iter().map(Vec3::from).collect();
         let count = positions.len();
@@ -54,7 +54,7 @@ impl File {
             None => (0..count as u32).collect(),
         };
         let whole = triangles(mode, &indices);
-        ensure!(!whole.is_empty(), "has no triangles");
+        ensure!(!whole.is_empty(), "it has no triangles");
         let is_whole = |triangle: &&[u32; 3]| {
             let position = |&i: &u32| positions.get(i as usize).is_some_and(|at| at.is_finite());
             triangle.iter().all(position)
@@ -65,7 +65,7 @@ impl File {
                 format!("mesh \"{name}\" has triangles with indices or positions that are wrong; they are left out")
             });
         }
-        ensure!(!kept.is_empty(), "has no triangle whose indices and positions are right");
+        ensure!(!kept.is_empty(), "it has no triangle whose indices and positions are right");
         let mut vertices = Vec::new();
         // The vertex of each corner with a normal; the others stay with their triangle.
         let mut known = vec![u32::MAX; count];
