@@ -41,7 +41,7 @@ fn quads(u: [f32; 4], sampler: &str, node: &str, settings: &[&str]) -> Picture {
     );
     let file = folder.path().join("m.gltf");
     fs::write(&file, text).expect("a file can be written");
-    let sets = ["camera eye=0,0.5,3", "camera target=0,0.5,0"];
+    let sets = ["camera eye=0.013,0.5,3", "camera target=0.013,0.5,0"];
     let sets: Vec<_> = sets.iter().chain(settings).collect();
     Chapter::new(NAME).size("61x31").scene(file).sets(&sets).picture()
 }
