@@ -15,6 +15,7 @@ const BEFORE: &[(&str, &str)] = &[
 ];
 const AFTER: &[(&str, &str)] = &[
     ("command-line.md", "The command line"),
+    ("own-models.md", "Your own models"),
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
     ("depth-and-occlusion.md", "Depth and ambient occlusion"),

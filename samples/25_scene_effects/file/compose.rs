@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use common::model::text::{Folder, quoted, shown};
-use common::model::{Model, obj, turn_outwards};
+use common::model::{Model, gltf, obj, turn_outwards};
 use common::scene::{Camera, Instance, Material, Mesh, REACH, Scene, assets, place_position};
 use glam::{Affine3A, Mat3A, Vec3};
 use toml::Spanned;
@@ -111,6 +111,11 @@ impl Description {
             };
             source.error(named.span().start, &format!("{}{escape}", words(&error.to_string())))
         })?;
+        if gltf::is_gltf(&found.beside) {
+            let what = "`model` names a glTF file, which has its own scene; write an OBJ file here, or open the \
+                        glTF file by --scene";
+            return Err(source.error(named.span().start, what));
+        }
         // It keeps its place, because the scene file's other coordinates belong to it.
         let mut model = obj::load(&found.beside)?;
         if let Some(instead) = &found.instead {

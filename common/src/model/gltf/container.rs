@@ -86,12 +86,14 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
     // Three bytes make an object, so a small file could take all memory.
     let objects = json.iter().filter(|&&byte| byte == b'{').count() as u64;
     let need = objects * OBJECT + 8 * json.len() as u64;
+    let gigabytes = |bytes: u64| bytes as f64 / 1e9;
     ensure!(
         need <= memory,
-        "would take up to {need} bytes of memory for the {objects} objects of its JSON part; at most {memory} \
-         are taken"
+        "would take up to {:.1} GB of memory for the {objects} objects of its JSON part; at most {:.1} GB are taken",
+        gigabytes(need),
+        gigabytes(memory)
     );
-    serde_json::from_slice(json).map_err(|error| {
+    serde_json::from_slice(json).or_else(|error| with_nodes(json).ok_or(error)).map_err(|error| {
         let place = match (is_text, error.line()) {
             (_, 0) => String::new(),
             (true, line) => format!("line {line}: "),
@@ -100,6 +102,15 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
         };
         anyhow!("{place}{}", reason(&error))
     })
+}
+
+/// Parses a JSON part in which a scene has no nodes, which is allowed, and which the parser does not allow.
+fn with_nodes(json: &[u8]) -> Option<Root> {
+    let mut value: serde_json::Value = serde_json::from_slice(json).ok()?;
+    for scene in value.get_mut("scenes")?.as_array_mut()? {
+        scene.as_object_mut()?.entry("nodes").or_insert_with(|| Vec::<u32>::new().into());
+    }
+    serde_json::from_value(value).ok()
 }
 
 /// The reason of the parser in our own words, which name what it names.

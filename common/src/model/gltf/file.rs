@@ -1,6 +1,6 @@
 //! A glTF file in memory, with its buffers.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::ops::Range;
 use std::path::Path;
 
@@ -23,6 +23,8 @@ pub(super) struct File {
     bytes: Vec<u8>,
     /// The place of the buffer that a GLB file brings.
     embedded: Option<Range<usize>>,
+    /// Files found beside the model instead of where it says, in messages.
+    elsewhere: RefCell<Vec<String>>,
     /// The other buffers; read when something first needs them.
     buffers: Vec<OnceCell<Result<Vec<u8>, String>>>,
     limits: Limits,
@@ -48,7 +50,13 @@ impl File {
         );
         let buffers = root.buffers.iter().map(|_| OnceCell::new()).collect();
         let limits = *limits;
-        Ok(Self { shown, root, folder, bytes, embedded: parts.buffer, buffers, limits })
+        let elsewhere = RefCell::default();
+        Ok(Self { shown, root, folder, bytes, embedded: parts.buffer, elsewhere, buffers, limits })
+    }
+
+    /// A line about each buffer that was found elsewhere.
+    pub fn elsewhere(&self) -> Vec<String> {
+        self.elsewhere.take()
     }
 
     /// The bytes of a buffer view.
@@ -96,6 +104,10 @@ impl File {
         };
         let named = self.folder.find(what, &path, None);
         let named = named.map_err(|error| anyhow!("{}", of_gltf(&error.to_string())))?;
+        if let Some(instead) = &named.instead {
+            let what = "the file of that name beside the model is taken";
+            self.elsewhere.borrow_mut().push(format!("{}; {what}", of_gltf(instead)));
+        }
         // All files of a model together: each may be as large as the model's own.
         let taken = self.buffers.iter().filter_map(|buffer| buffer.get()?.as_ref().ok());
         let taken: u64 = taken.map(|bytes| bytes.len() as u64).sum();

@@ -43,6 +43,8 @@ pub(super) struct Images<'a> {
     /// By image, sampling and threshold, which is 0 without holes.
     known: HashMap<(usize, Sampling, u32), Option<Loaded>>,
     means: HashMap<usize, Option<Vec3>>,
+    /// Bytes left for texels of which only the mean is taken: decoding them takes time.
+    left_for_means: u64,
 }
 
 impl<'a> Images<'a> {
@@ -54,6 +56,7 @@ impl<'a> Images<'a> {
             textures: Vec::new(),
             known: HashMap::new(),
             means: HashMap::new(),
+            left_for_means: limits.texture_bytes,
         }
     }
 
@@ -98,7 +101,8 @@ impl<'a> Images<'a> {
         if let Some(known) = self.means.get(&image.value()) {
             return *known;
         }
-        let left = self.left;
+        // It is not kept, so it does not take from the textures.
+        std::mem::swap(&mut self.left, &mut self.left_for_means);
         let mean = self.read(image, features).map(|texture| {
             let mut sum = [0u64; 3];
             for texel in texture.rgba.chunks_exact(4) {
@@ -109,8 +113,7 @@ impl<'a> Images<'a> {
             let count = (texture.rgba.len() / 4).max(1) as f64 * 255.0;
             Vec3::from(sum.map(|sum| (sum as f64 / count) as f32))
         });
-        // It is not kept.
-        self.left = left;
+        std::mem::swap(&mut self.left, &mut self.left_for_means);
         self.means.insert(image.value(), mean);
         mean
     }
@@ -118,7 +121,7 @@ impl<'a> Images<'a> {
     /// Decodes an image; a fault is a note.
     fn read(&mut self, index: Index<Image>, features: &mut Features) -> Option<Texture> {
         let number = index.value();
-        match self.decode(index) {
+        match self.decode(index, features) {
             Ok((texture, cut)) => {
                 if let Some(cut) = cut {
                     features.note("cut", 1, || {
@@ -128,17 +131,22 @@ impl<'a> Images<'a> {
                 Some(texture)
             }
             Err(error) => {
-                features.note("image", 1, || format!("image {number}: {error}; {PLAIN}"));
+                let place =
+                    if number == NONE { "an image".to_owned() } else { format!("image {number}") };
+                features.note("image", 1, || format!("{place}: {error}; {PLAIN}"));
                 None
             }
         }
     }
 
-    fn decode(&mut self, index: Index<Image>) -> Result<(Texture, Option<String>)> {
+    fn decode(
+        &mut self,
+        index: Index<Image>,
+        features: &mut Features,
+    ) -> Result<(Texture, Option<String>)> {
         let root = &self.file.root;
         let image = root.get(index).with_context(|| match index.value() {
-            // What the parser takes for a missing number.
-            source if source == u32::MAX as usize => "a texture names no image".to_owned(),
+            NONE => "its texture names none that is read, PNG or JPEG".to_owned(),
             _ => missing("image", index, &root.images),
         })?;
         let name = match &image.name {
@@ -156,6 +164,15 @@ impl<'a> Images<'a> {
                 Uri::Path(path) => {
                     let named = self.file.folder.find("its URI", &path, None);
                     let named = named.map_err(|error| anyhow!(of_gltf(&error.to_string())))?;
+                    if let Some(instead) = &named.instead {
+                        let number = index.value();
+                        features.note("elsewhere", 1, || {
+                            format!(
+                                "image {number}: {}; the file of that name beside the model is taken",
+                                of_gltf(instead)
+                            )
+                        });
+                    }
                     texture::decode_file(named, left, limits)
                 }
             },
@@ -163,6 +180,9 @@ impl<'a> Images<'a> {
         }
     }
 }
+
+/// The number of an image that is not named, as the parser has it.
+const NONE: usize = u32::MAX as usize;
 
 /// In place of a texture.
 const PLAIN: &str = "the plain colour stands for it";

@@ -84,7 +84,9 @@ impl<'a> Loading<'a> {
             Self { file, meshes: Vec::new(), materials: Vec::new(), looks, known: HashMap::new() };
         let mut instances = loading.place(&placed, features)?;
         if instances.is_empty() {
-            let why = features.first("primitive").unwrap_or("its nodes place no triangles");
+            let why =
+                ["primitive", "flat", "twice", "node"].iter().find_map(|kind| features.first(kind));
+            let why = why.unwrap_or("its nodes place no triangles");
             return Err(anyhow!("nothing to show: {why}"));
         }
 
@@ -109,6 +111,7 @@ impl<'a> Loading<'a> {
         }
         check_size(low - origin, high - origin)?;
         let mut warnings: Vec<_> = features.lines().collect();
+        warnings.extend(file.elsewhere().into_iter().map(|what| format!("{}: {what}", file.shown)));
         warnings.extend(turned);
         warnings.extend(far.map(|far| format!("{}: {}", file.shown, far.moved())));
         if !meshes.iter().any(Mesh::has_area) {

@@ -21,6 +21,9 @@ const DIELECTRIC: f32 = 0.04;
 /// The largest exponent of a highlight: that of a roughness of 0.01.
 const SHARPEST: f32 = 2e8;
 
+/// The part of its colour that a mirror of metal also scatters. It has none, but in the chapters without mirrors it would
+/// be black.
+const BELOW: f32 = 0.2;
 /// The largest colour of a surface of which little is seen in light.
 const DARK: f32 = 0.01;
 
@@ -35,6 +38,8 @@ const BODY: u32 = 7;
 pub(super) struct Coordinates {
     /// The number of the set.
     pub set: u32,
+    /// True if a texture reads them.
+    pub is_read: bool,
     offset: Vec2,
     rotation: f32,
     scale: Vec2,
@@ -42,7 +47,7 @@ pub(super) struct Coordinates {
 
 impl Default for Coordinates {
     fn default() -> Self {
-        Self { set: 0, offset: Vec2::ZERO, rotation: 0.0, scale: Vec2::ONE }
+        Self { set: 0, is_read: false, offset: Vec2::ZERO, rotation: 0.0, scale: Vec2::ONE }
     }
 }
 
@@ -51,10 +56,11 @@ impl Coordinates {
     fn of_texture(info: &Info) -> Self {
         let transform = info.extensions.as_ref().and_then(|all| all.texture_transform.as_ref());
         let Some(transform) = transform else {
-            return Self { set: info.tex_coord, ..Self::default() };
+            return Self { set: info.tex_coord, is_read: true, ..Self::default() };
         };
         Self {
             set: transform.tex_coord.unwrap_or(info.tex_coord),
+            is_read: true,
             offset: Vec2::from(transform.offset.0),
             rotation: transform.rotation.0,
             scale: Vec2::from(transform.scale.0),
@@ -109,12 +115,19 @@ impl Look {
         let roughness = values.roughness.clamp(0.0, 1.0);
         let is_mirror = roughness < MIRROR && metallic > 0.5 || roughness < 0.05;
         if metallic > 0.0 && metallic < 1.0 || (MIRROR..1.0).contains(&roughness) {
-            let what = "metal and roughness are approximated: smooth metal is a mirror, rough metal is matte";
-            features.note("rough", 1, || format!("{} is {}; {what}", place(), amount(&values)));
+            features.note("rough", 1, || {
+                let Values { metallic, roughness, .. } = values;
+                let what =
+                    "both are approximated by a matte surface, or by a mirror if it is smooth";
+                format!(
+                    "{} has the metalness {metallic:.2} and the roughness {roughness:.2}; {what}",
+                    place()
+                )
+            });
         }
         let reflectance = Vec3::splat(DIELECTRIC).lerp(color, metallic);
         let mut material = Material {
-            base_color: color,
+            base_color: if is_mirror { color * (1.0 - (1.0 - BELOW) * metallic) } else { color },
             specular: match values.specular {
                 Some(specular) => specular.clamp(Vec3::ZERO, Vec3::ONE),
                 None if is_mirror => reflectance,
@@ -172,12 +185,6 @@ impl<'a> Values<'a> {
             specular: None,
         }
     }
-}
-
-/// Metal and roughness in a message.
-fn amount(values: &Values) -> String {
-    let Values { metallic, roughness, .. } = values;
-    format!("{:.0} % metal, with the roughness {roughness:.2}", 100.0 * metallic)
 }
 
 /// The exponent of a Blinn-Phong highlight as wide as the GGX one of a roughness (Walter et al. 2007, by Karis

@@ -1,7 +1,7 @@
 //! The tree of nodes: where each mesh, camera and light of a scene is.
 
 use anyhow::{Result, ensure};
-use glam::{DMat4, DQuat, DVec3, Quat, Vec3};
+use glam::{DMat4, DQuat, DVec3, DVec4, Quat, Vec3};
 use gltf::json::{Index, Node, Root};
 
 use super::features::Features;
@@ -71,7 +71,7 @@ pub(super) fn visit<'a>(root: &'a Root, features: &mut Features) -> Result<Vec<P
             });
             continue;
         }
-        let transform = parent * local(node);
+        let transform = parent * local(number, node, features);
         placed.push(Placed { number, node, transform });
         if let Some(children) = &node.children {
             push(children, transform, &mut stack);
@@ -81,9 +81,18 @@ pub(super) fn visit<'a>(root: &'a Root, features: &mut Features) -> Result<Vec<P
 }
 
 /// From a node's space to its parent's.
-fn local(node: &Node) -> DMat4 {
+fn local(number: usize, node: &Node, features: &mut Features) -> DMat4 {
     if let Some(matrix) = &node.matrix {
-        return DMat4::from_cols_array(&matrix.map(f64::from));
+        let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
+        // The last row of a place is 0, 0, 0, 1; that of its transpose has the translation.
+        let is_last = |row: DVec4| row == DVec4::W;
+        if !is_last(matrix.row(3)) && is_last(matrix.w_axis) {
+            features.note("transposed", 1, || {
+                format!("the matrix of node {number} is transposed; glTF has columns; it is turned around")
+            });
+            return matrix.transpose();
+        }
+        return matrix;
     }
     let translation = Vec3::from(node.translation.unwrap_or_default()).as_dvec3();
     let scale = node.scale.map_or(DVec3::ONE, |scale| Vec3::from(scale).as_dvec3());

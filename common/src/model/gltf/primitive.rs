@@ -10,6 +10,7 @@ use super::file::File;
 use super::material::Coordinates;
 use super::pose::Pose;
 use crate::model::obj::{flat_normal, unit};
+use crate::model::text::quoted;
 use crate::scene::mesh::{Mesh, Vertex};
 
 impl File {
@@ -49,6 +50,15 @@ impl File {
         pose.apply(self, primitive, &mut positions, &mut normals)?;
         let set = Semantic::TexCoords(coordinates.set);
         let uvs = self.of_vertices::<2>(primitive, set, count, features);
+        if uvs.is_empty() && coordinates.is_read {
+            features.note("untextured", 1, || {
+                let set = coordinates.set;
+                format!(
+                    "mesh {} has a texture and no TEXCOORD_{set}; one texel colours it",
+                    quoted(name)
+                )
+            });
+        }
         let indices: Vec<u32> = match primitive.indices {
             Some(indices) => self.integers::<1>(indices)?.into_iter().map(|[i]| i).collect(),
             None => (0..count as u32).collect(),
@@ -62,7 +72,7 @@ impl File {
         let kept: Vec<[u32; 3]> = whole.iter().filter(is_whole).copied().collect();
         if kept.len() < whole.len() {
             features.note("triangles", whole.len() - kept.len(), || {
-                format!("mesh \"{name}\" has triangles with indices or positions that are wrong; they are left out")
+                format!("mesh {} has triangles with indices or positions that are wrong; they are left out", quoted(name))
             });
         }
         ensure!(!kept.is_empty(), "it has no triangle whose indices and positions are right");

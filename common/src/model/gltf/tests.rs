@@ -497,7 +497,7 @@ fn the_chess_set_is_the_same_as_its_obj_file() {
     let gltf = Scene::open(&assets.join("chess.gltf")).unwrap();
     let obj = Scene::chess().unwrap();
     assert_eq!(gltf.model.warnings.len(), 1, "{:?}", gltf.model.warnings);
-    assert!(gltf.model.warnings[0].contains("metal and roughness are approximated"));
+    assert!(gltf.model.warnings[0].contains("both are approximated by a matte surface"));
     assert_eq!(gltf.instances.len(), obj.instances.len());
     let positions = |scene: &Scene, mesh: usize| -> Vec<[Vec3; 3]> { places(scene, mesh) };
     for instance in &obj.instances {
