@@ -34,6 +34,12 @@ fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
+/// A run whose pieces are in so many parts; one part has no shape to set.
+fn cut_in(chapter: Chapter, cut: &str, parts: u32) -> Chapter {
+    let chapter = chapter.set("parts", parts);
+    if parts > 1 { chapter.set("cut", cut) } else { chapter }
+}
+
 /// The chapter's own scene, cut, and its places.
 fn scene(cut: Cut, parts: u32) -> (Scene, Vec<Range<usize>>) {
     let mut scene = parts::cut(&Scene::chess().unwrap(), cut, parts);
@@ -95,12 +101,8 @@ fn one_level_equals_many() {
     for (cut, parts) in [("slices", 1), ("slices", 3), ("rings", 5)] {
         for show in ["picture", "normal", "triangle", "hit", "record", "group"] {
             let view = |levels: &str| {
-                let mut picture = chapter()
-                    .set("levels", levels)
-                    .set("cut", cut)
-                    .set("parts", parts)
-                    .set("show", show)
-                    .picture();
+                let chapter = chapter().set("levels", levels).set("show", show);
+                let mut picture = cut_in(chapter, cut, parts).picture();
                 if show == "hit" {
                     picture.pixels.iter_mut().for_each(|pixel| pixel[3] = 0.0);
                 }

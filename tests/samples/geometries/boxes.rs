@@ -11,7 +11,7 @@ use serde_json::{Map, json};
 use run::expected;
 use run::primary_hits::{answer, rays};
 
-use super::{Cut, chapter, scene};
+use super::{Cut, chapter, cut_in, scene};
 use crate::primitive_order::{tested, tested_leaves, tree};
 use tree::Node;
 
@@ -81,14 +81,8 @@ fn boxes_per_ray() {
         for parts in [1, 4, 16] {
             let (scene, places) = scene(cut, parts);
             let apart: Vec<_> = (0..scene.instances.len()).map(|i| i..i + 1).collect();
-            let view = |show: &str| {
-                chapter()
-                    .size("120x75")
-                    .set("cut", word)
-                    .set("parts", parts)
-                    .set("show", show)
-                    .picture()
-            };
+            let run = cut_in(chapter().size("120x75"), word, parts);
+            let view = |show: &str| run.clone().set("show", show).picture();
             let [hits, directions] = ["hit", "ray direction"].map(view);
             let all = [(&places, true), (&places, false), (&apart, false)];
             let [whole, one, many] = all.map(|(places, whole)| {

@@ -4,12 +4,11 @@ use serde_json::{Map, Value};
 
 use run::{Chapter, expected};
 
-use super::NAME;
+use super::{NAME, cut_in};
 
 /// A run that shows hardly a pixel.
 fn report(levels: &str, cut: &str, parts: u32) -> Value {
-    let chapter = Chapter::new(NAME).size("8x5").set("levels", levels).set("cut", cut);
-    chapter.set("parts", parts).run().report
+    cut_in(Chapter::new(NAME).size("8x5").set("levels", levels), cut, parts).run().report
 }
 
 #[test]
