@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "look.glsl"
-#include "noise.glsl"
+#include "common/noise.glsl"
 
 // Lacquer: a deep coat with gold dust in it.
 void main() {

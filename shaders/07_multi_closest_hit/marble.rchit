@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "look.glsl"
-#include "noise.glsl"
+#include "common/noise.glsl"
 
 // White marble: veins where noise passes zero, in clouds of grey.
 void main() {

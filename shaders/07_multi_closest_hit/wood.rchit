@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "look.glsl"
-#include "noise.glsl"
+#include "common/noise.glsl"
 
 // Wood: the rings of a trunk, cut by the surface. Each square of the board is cut from its own.
 void main() {

@@ -35,6 +35,7 @@ golden! {
     far_from_origin,
     filtered_checker,
     foundation,
+    geometries,
     heightfield,
     infinite_plane,
     instancing,

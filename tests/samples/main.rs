@@ -13,6 +13,7 @@ mod equalities;
 mod far_from_origin;
 mod filtered_checker;
 mod foundation;
+mod geometries;
 mod glass;
 mod gltf;
 mod golden;

@@ -14,7 +14,7 @@ use run::{Chapter, expected, same_colors, same_hits};
 mod order;
 #[allow(dead_code)]
 #[path = "../../samples/38_primitive_order/tree.rs"]
-mod tree;
+pub mod tree;
 
 use crate::intersection::{scenes, shapes};
 use order::Order;
@@ -229,13 +229,32 @@ fn meets(node: &Node, origin: DVec3, direction: DVec3, end: f64) -> bool {
 }
 
 /// Number of boxes that a ray is tested against.
-fn tested(nodes: &[Node], origin: DVec3, direction: DVec3, end: f64) -> usize {
-    let (mut i, mut tests) = (0, 0);
+pub fn tested(nodes: &[Node], origin: DVec3, direction: DVec3, end: f64) -> usize {
+    tested_leaves(nodes, origin, direction, end).0
+}
+
+/// The same, and the primitives whose boxes it meets, in the order of the list.
+pub fn tested_leaves(
+    nodes: &[Node],
+    origin: DVec3,
+    direction: DVec3,
+    end: f64,
+) -> (usize, Vec<usize>) {
+    let (mut i, mut tests, mut leaves, mut met) = (0, 0, 0, Vec::new());
     while let Some(node) = nodes.get(i) {
         tests += 1;
-        i = if meets(node, origin, direction, end) { i + 1 } else { node.next as usize };
+        let next = node.next as usize;
+        let meets = meets(node, origin, direction, end);
+        // A box of k primitives and those in it are 2k - 1 nodes.
+        let primitives = (next - i).div_ceil(2);
+        if meets && primitives == 1 {
+            met.push(leaves);
+        }
+        let skipped = !meets || primitives == 1;
+        leaves += if skipped { primitives } else { 0 };
+        i = if skipped { next } else { i + 1 };
     }
-    tests
+    (tests, met)
 }
 
 #[test]

@@ -80,6 +80,11 @@ impl AccelerationStructure {
         Ok(Self::build(gpu, &[(name, input)], options)?.remove(0))
     }
 
+    /// Bytes the driver reserves for a build: compaction frees those it did not need.
+    pub fn built_size(&self) -> u64 {
+        self.plan.sizes.acceleration_structure_size
+    }
+
     /// Bytes of scratch for a build in its place.
     pub fn build_scratch(&self) -> u64 {
         self.plan.sizes.build_scratch_size

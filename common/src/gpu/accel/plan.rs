@@ -36,6 +36,8 @@ impl Plan {
         let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
         let name = &plan.name;
         ensure!(total <= limit, "'{name}' has {total} {what}; {} takes {limit}", gpu.name);
+        let (parts, most) = (plan.geometries.len() as u64, limits.max_geometry_count);
+        ensure!(parts <= most, "'{name}' has {parts} geometries; {} takes {most}", gpu.name);
         input::check_arrays(gpu, name, &plan.geometries)?;
         if gpu.is_validated() {
             input::check_contents(gpu, name, &plan.geometries)?;

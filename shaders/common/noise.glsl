@@ -1,3 +1,5 @@
+// Taught by 07_multi_closest_hit.
+//
 // Textures from nothing: gradient noise on the lattice of whole numbers (Perlin 2002).
 #include "common/random.glsl"
 
