@@ -46,6 +46,9 @@ impl Texture {
     }
 }
 
+/// What a user should know of a texture that is shown.
+type Remark = (warnings::Kind, &'static str);
+
 /// The use of a texture in a material.
 pub(crate) enum Role {
     /// RGB.
@@ -97,12 +100,12 @@ impl TextureFiles {
         let mut left = limits.texture_bytes;
         let mut textures = Vec::new();
         let decode = |file: TextureFile| {
-            let place = file.place.clone();
+            let (place, shown) = (file.place.clone(), file.named.shown.clone());
             match file.decode(&mut left, limits) {
-                Ok((texture, missing)) => {
-                    if let Some(what) = missing {
-                        let first = || format!("{place}: the texture {what}");
-                        warnings.add_many(warnings::Kind::Cut, 1, first);
+                Ok((texture, remarks)) => {
+                    for (kind, what) in remarks {
+                        let first = || format!("{place}: the texture {shown}: {what}");
+                        warnings.add_many(kind, 1, first);
                     }
                     textures.push(texture);
                     Some(textures.len() - 1)
@@ -120,8 +123,8 @@ impl TextureFiles {
 }
 
 impl TextureFile {
-    /// Decodes the file, subtracting its size from the remaining bytes; returns also what is missing in it.
-    fn decode(self, left: &mut u64, limits: &Limits) -> Result<(Texture, Option<String>)> {
+    /// Decodes the file, subtracting its size from the remaining bytes; returns also what a user should know of it.
+    fn decode(self, left: &mut u64, limits: &Limits) -> Result<(Texture, Vec<Remark>)> {
         let shown = &self.named.shown;
         let wrong = |what: anyhow::Error| anyhow!("{shown}: {what}");
         let mut file = BufReader::new(open(&self.named.path, shown, limits.texture_bytes)?);
@@ -130,8 +133,8 @@ impl TextureFile {
         file.by_ref().take(kind::HEAD).read_to_end(&mut head).map_err(unread)?;
         file.rewind().map_err(unread)?;
         let kind = Kind::of(&head).map_err(wrong)?;
-        let (image, missing) = match kind {
-            Kind::Png => (png::decode(file, &self, left, limits).map_err(wrong)?, None),
+        let (image, remarks) = match kind {
+            Kind::Png => (png::decode(file, &self, left, limits).map_err(wrong)?, Vec::new()),
             Kind::Jpeg => jpeg::decode(file, &self, left, limits).map_err(wrong)?,
         };
         let (width, height) = (image.width(), image.height());
@@ -142,8 +145,7 @@ impl TextureFile {
         {
             texel[3] = *luminance;
         }
-        let missing = missing.map(|what| format!("{shown}: {what}"));
-        Ok((Texture { name: self.named.name, width, height, rgba, srgb: self.color }, missing))
+        Ok((Texture { name: self.named.name, width, height, rgba, srgb: self.color }, remarks))
     }
 
     fn wants_luminance(&self, color: ColorType) -> bool {
