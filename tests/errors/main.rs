@@ -17,6 +17,7 @@ mod scarce;
 mod scenes;
 mod shaders;
 mod signals;
+mod silhouettes;
 mod testmodels;
 
 use std::path::Path;

@@ -187,6 +187,7 @@ fn models_that_can_do_without() {
             "f 1 2\nf 1 2 3",
             "model.obj:4: a face has 2 corners; it needs at least 3; the face is left out",
         ),
+        ("v 0 nan 0\nf 1 2 4\nf 1 2 3", "model.obj:4: v has \"nan\", which is not a finite 32-bit"),
         ("vn nan 0 1\nf 1//1 2//1 3", "model.obj:4: vn has \"nan\", which is not a finite 32-bit"),
         ("f 1//1 2//2 3", "model.obj:4: normal index 1 is out of range: the file has 0 normals"),
         ("group a\nf 1 2 3", "model.obj:4: \"group\" is not a keyword of an OBJ file"),
@@ -306,7 +307,15 @@ const RELATIVE: &str = "v 0 0 0\nv 2 0 0\nv 3 1 0\nv 2 2 0\nv 1 3 0\nv 0 2 0\nvt
 #[test]
 fn files_of_other_exporters() {
     for (name, obj, mtl, warnings) in [
-        ("Blender", BLENDER, BLENDER_MTL, &[][..]),
+        (
+            "Blender",
+            BLENDER,
+            BLENDER_MTL,
+            &[
+                "model.mtl:13: Pr belongs to physically based",
+                "model.mtl:14: map_Bump is a map of bumps",
+            ][..],
+        ),
         ("3ds Max", MAX, MAX_MTL, &[]),
         ("MeshLab", MESHLAB, "", &["model.obj:13: v has a colour"]),
         ("relative", RELATIVE, "", &["model.obj:25: \"call\" is not a keyword"]),

@@ -249,6 +249,49 @@ fn a_planet_is_told_of_that_things_on_it_lose_their_shadows() {
 }
 
 #[test]
+fn boxes_solids_and_meshes_are_told_of_as_planets_are() {
+    let ball = |height: &str| {
+        format!("[[sphere]]\ncenter = [0, {height}, 0]\nradius = 1\nmaterial = \"a\"\n")
+    };
+    let block = |high: &str| {
+        format!(
+            "[[box]]\nlow = [-1000000, -1000000, -1000000]\nhigh = [1000000, {high}, 1000000]\nmaterial = \"a\"\n"
+        )
+    };
+    let solid = "[[solid]]\ncenter = [0, -900000, 0]\nplanes = [[0, 1, 0, 900000], [0, -1, 0, 1], [1, 0, 0, \
+                 900000], [-1, 0, 0, 900000], [0, 0, 1, 900000], [0, 0, -1, 900000]]\nmaterial = \"a\"\n";
+    let ground = "v -1e6 0 -1e6\nv 1e6 0 -1e6\nv 1e6 0 1e6\nv -1e6 0 1e6\no ground\nf 4 3 2 1\n";
+    let cube = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no thing\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+    let leave = |what: &str| format!("rays that leave {what} start up to ");
+    for (shape, words) in [
+        (block("0") + &ball("1"), String::new()),
+        (block("900000") + &ball("900001"), format!("s.toml:8: {}", leave("this box"))),
+        (solid.to_owned() + &ball("1"), format!("s.toml:8: {}", leave("this solid"))),
+        (
+            "[[piece]]\nmesh = \"ground\"\nat = [0, 0, 0]\n".to_owned() + &ball("1"),
+            format!("s.toml: {}", leave("the mesh \"ground\"")),
+        ),
+    ] {
+        let head = HEAD.replace("[camera]", "model = \"m.obj\"\n[camera]");
+        let head = if shape.contains("ground") { &head } else { HEAD };
+        let scene = format!("{head}{PAINT}{shape}");
+        let (_folder, mut command) = command(scene.as_bytes(), &[("m.obj", ground)]);
+        let output = command.arg("--validate").output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && said.is_empty() == words.is_empty(), "{said}");
+        assert!(said.contains(&words), "{said}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.obj");
+    fs::write(&path, format!("{ground}{cube}")).unwrap();
+    let mut command = run::command("25_scene_effects");
+    let output =
+        command.args(["--headless", "--size", "8x8", "--scene"]).arg(&path).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains(&format!("m.obj: {}", leave("the mesh \"ground\""))), "{said}");
+}
+
+#[test]
 fn glass_whose_faces_point_inwards_is_turned_around() {
     let tetrahedron = "o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     let scene = HEAD.replace("[camera]", "model = \"m.obj\"\n[camera]")

@@ -1,6 +1,6 @@
 //! The elements of an OBJ file: positions, texture coordinates, normals and faces.
 
-use anyhow::{Error, Result, bail, ensure};
+use anyhow::{Result, ensure};
 use glam::{Vec2, Vec3};
 
 use super::face::corner;
@@ -13,17 +13,36 @@ use super::warnings::Kind;
 const CORNERS: usize = 1024;
 
 impl Check<'_> {
-    pub fn position(&mut self, rest: &str, statement: &Statement) -> Result<()> {
+    /// Adds a position. A wrong one keeps its number, so that those after it keep theirs.
+    pub fn position(&mut self, rest: &str, statement: &Statement) {
+        self.tally.positions += 1;
+        match self.checked_position(rest, statement) {
+            Ok((position, has_w)) => self.geometry.positions.push(position, rest, has_w),
+            Err(what) => {
+                self.geometry.positions.push_wrong();
+                self.leave_out(Kind::Position, "", statement, what);
+            }
+        }
+    }
+
+    /// A position in 32 bits, and true if it was divided by a `w`.
+    fn checked_position(
+        &mut self,
+        rest: &str,
+        statement: &Statement,
+    ) -> Result<(Vec3, bool), String> {
         const FORMS: &str = "x y z, x y z w or x y z r g b is right";
         let mut values = [0.0; 4];
-        let count = numbers("v", rest, &mut values).map_err(Error::msg)?;
+        let count = numbers("v", rest, &mut values)?;
         let mut position = Vec3::from_slice(&values);
         match count {
-            0..3 => bail!("v has {count} numbers; {FORMS}"),
+            0..3 => return Err(format!("v has {count} numbers; {FORMS}")),
             3 => {}
             4 => {
                 position /= values[3];
-                ensure!(position.is_finite(), "a position divided by its w is not finite");
+                if !position.is_finite() {
+                    return Err("a position divided by its w is not finite".to_owned());
+                }
             }
             // The last 3 are a colour.
             6 | 7 => self.warnings.add(Kind::Color, statement, || {
@@ -34,9 +53,7 @@ impl Check<'_> {
                 self.warnings.add_word(Kind::Count, "v", statement, what);
             }
         }
-        self.tally.positions += 1;
-        self.geometry.positions.push(position, rest, count == 4);
-        Ok(())
+        Ok((position, count == 4))
     }
 
     pub fn coordinate(&mut self, rest: &str, statement: &Statement) -> Result<Vec2, String> {
@@ -85,6 +102,10 @@ impl Check<'_> {
         if corners.len() < 3 {
             let what = format!("a face has {} corners; it needs at least 3", corners.len());
             self.leave_out(Kind::Face, "", statement, what);
+            return Ok(());
+        }
+        // The warning about the position says that they are left out.
+        if corners.iter().any(|corner| self.geometry.positions.is_wrong(corner.position)) {
             return Ok(());
         }
         self.tally.faces += 1;

@@ -29,8 +29,8 @@ use crate::scene::mesh::{LEAST, Mesh, REACH, around};
 /// [`Model::warnings`], which says what to write.
 ///
 /// # Errors
-/// If the file is missing or has no faces, if a position is wrong, if the model extends too far or is too small,
-/// needs too much memory, or one of the files is too large; the message is one line with file and line number.
+/// If the file is missing or has no faces that can be shown, if the model extends too far or is too small, needs too
+/// much memory, or one of the files is too large; the message is one line with file and line number.
 pub fn load(path: &Path) -> Result<Model> {
     checked(path, load_within(path, &Limits::DEFAULT, Place::AsWritten)?)
 }

@@ -11,6 +11,7 @@ mod index;
 mod limits;
 mod load;
 mod mtl;
+mod mtl_keywords;
 mod mtl_value;
 mod number;
 pub mod obj;

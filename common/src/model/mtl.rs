@@ -6,22 +6,13 @@ use std::path::PathBuf;
 use anyhow::{Result, ensure};
 
 use super::limits::Limits;
+use super::mtl_keywords::Keyword;
 use super::mtl_value::{BRIGHTEST, Value, after_options};
 use super::text::{Folder, Named, Statement, Text, Unavailable, name, quoted};
 use super::texture::{Role, Texture, TextureFiles};
 use super::unseen::Places;
 use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
-
-/// The keywords that are read.
-const READ: [&str; 12] =
-    ["newmtl", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
-
-/// The keywords of MTL, and of its extensions by other programs, that these samples do not use.
-const PASSED_OVER: &str = "Ka Km sharpness map_Ka map_Ks map_Ke map_Ns map_Ni map_Tr map_Tf map_aat map_refl \
-    map_bump bump disp map_disp decal refl Pr Pm Ps Pc Pcr aniso anisor norm map_Pr map_Pm \
-    map_Ps map_Pc map_Pcr map_norm map_Kn map_normal map_aniso map_anisor map_RMA map_ORM \
-    Pfr Pfg Pl Pf map_Pfr";
 
 /// The materials found so far in the MTL files of an OBJ file.
 ///
@@ -88,8 +79,8 @@ impl MaterialLibrary {
         (materials, textures)
     }
 
-    /// Reads an MTL file. Keywords are read in upper and lower case; those that these samples do not use are ignored,
-    /// and wrong values get a warning.
+    /// Reads an MTL file. Keywords are read in upper and lower case; those of what is not shown get a warning, and so
+    /// do wrong values.
     ///
     /// # Errors
     /// If it is too large, or a name too long, with file and line.
@@ -140,9 +131,15 @@ impl MaterialLibrary {
         warnings: &mut Warnings,
     ) -> Result<()> {
         let (word, rest) = statement.split()?;
-        let is = |keyword: &&str| keyword.eq_ignore_ascii_case(word);
-        let Some(keyword) = READ.into_iter().find(is) else {
-            if !PASSED_OVER.split(' ').any(|keyword| is(&keyword)) {
+        let keyword = match Keyword::of(word, rest) {
+            Keyword::Read(keyword) => keyword,
+            Keyword::PassedOver => return Ok(()),
+            Keyword::LeftOut(names, what) => {
+                let what = || format!("{word} {what}");
+                warnings.add_word(Kind::Unread, names, statement, what);
+                return Ok(());
+            }
+            Keyword::Unknown => {
                 let what = || {
                     format!(
                         "{} is not a keyword of an MTL file, as newmtl, Kd, Ks, Ke, Ns, Ni, d, Tr, illum and \
@@ -151,8 +148,8 @@ impl MaterialLibrary {
                     )
                 };
                 warnings.add_word(Kind::Line, word, statement, what);
+                return Ok(());
             }
-            return Ok(());
         };
         if keyword == "newmtl" {
             return self.start(material_name(word, rest)?, statement, warnings);

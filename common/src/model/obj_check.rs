@@ -204,7 +204,7 @@ impl<'a> Check<'a> {
         statement: &Statement,
     ) -> Result<()> {
         match keyword {
-            "v" => self.position(rest, statement)?,
+            "v" => self.position(rest, statement),
             "vt" => {
                 let coordinate = self.coordinate(rest, statement).unwrap_or_else(|what| {
                     self.warnings.add(Kind::Coordinate, statement, || what);

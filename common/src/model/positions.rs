@@ -29,6 +29,17 @@ impl Positions {
         self.left.push(if left.is_finite() { left } else { Vec3::ZERO });
     }
 
+    /// Adds a position that cannot be shown.
+    pub fn push_wrong(&mut self) {
+        self.rounded.push(Vec3::NAN);
+        self.left.push(Vec3::ZERO);
+    }
+
+    /// True for a position that [`push_wrong`](Self::push_wrong) added.
+    pub fn is_wrong(&self, position: u32) -> bool {
+        self.rounded.get(position as usize).is_some_and(|position| position.is_nan())
+    }
+
     /// A position in 32 bits.
     pub fn rounded(&self, position: u32) -> Vec3 {
         self.rounded[position as usize]
@@ -99,7 +110,8 @@ impl Far {
         let decimals = self.decimals;
         format!(
             "is far from the origin, where 32 bits would lose its shape: it was moved by ({:.decimals$}, \
-             {:.decimals$}, {:.decimals$}) in 64 bits, and the camera with it",
+             {:.decimals$}, {:.decimals$}) in 64 bits, and the camera with it; points that you set, such as \
+             \"camera eye\", count from the new origin",
             0.0 - x,
             0.0 - y,
             0.0 - z

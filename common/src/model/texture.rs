@@ -50,6 +50,9 @@ impl Texture {
     }
 }
 
+/// What a user should know of a texture that is shown.
+pub(crate) type Remark = (warnings::Kind, &'static str);
+
 /// The use of a texture in a material.
 pub(crate) enum Role {
     /// RGB.
@@ -101,12 +104,12 @@ impl TextureFiles {
         let mut left = limits.texture_bytes;
         let mut textures = Vec::new();
         let decode = |file: TextureFile| {
-            let place = file.place.clone();
+            let (place, shown) = (file.place.clone(), file.named.shown.clone());
             match file.decode(&mut left, limits) {
-                Ok((texture, missing)) => {
-                    if let Some(what) = missing {
-                        let first = || format!("{place}: the texture {what}");
-                        warnings.add_many(warnings::Kind::Cut, 1, first);
+                Ok((texture, remarks)) => {
+                    for (kind, what) in remarks {
+                        let first = || format!("{place}: the texture {shown}: {what}");
+                        warnings.add_many(kind, 1, first);
                     }
                     textures.push(texture);
                     Some(textures.len() - 1)
@@ -124,13 +127,12 @@ impl TextureFiles {
 }
 
 impl TextureFile {
-    /// Decodes the file, subtracting its size from the remaining bytes; returns also what is missing in it.
-    fn decode(self, left: &mut u64, limits: &Limits) -> Result<(Texture, Option<String>)> {
+    /// Decodes the file, subtracting its size from the remaining bytes; returns also what a user should know of it.
+    fn decode(self, left: &mut u64, limits: &Limits) -> Result<(Texture, Vec<Remark>)> {
         let file = open(&self.named.path, &self.named.shown, limits.texture_bytes)?;
         let shown = self.named.shown.clone();
         let wrong = |what: anyhow::Error| anyhow!("{shown}: {what}");
-        let (texture, missing) = self.decode_from(file, left, limits).map_err(wrong)?;
-        Ok((texture, missing.map(|what| format!("{shown}: {what}"))))
+        self.decode_from(file, left, limits).map_err(wrong)
     }
 
     /// Decodes bytes, as [`TextureFile::decode`] does those of the file.
@@ -139,14 +141,14 @@ impl TextureFile {
         file: impl Read + Seek,
         left: &mut u64,
         limits: &Limits,
-    ) -> Result<(Texture, Option<String>)> {
+    ) -> Result<(Texture, Vec<Remark>)> {
         let mut file = BufReader::new(file);
         let unread = |error: std::io::Error| anyhow!("cannot be read: {error}");
         let mut head = Vec::new();
         file.by_ref().take(kind::HEAD).read_to_end(&mut head).map_err(unread)?;
         file.rewind().map_err(unread)?;
-        let (image, missing) = match Kind::of(&head)? {
-            Kind::Png => (png::decode(file, &self, left, limits)?, None),
+        let (image, remarks) = match Kind::of(&head)? {
+            Kind::Png => (png::decode(file, &self, left, limits)?, Vec::new()),
             Kind::Jpeg => jpeg::decode(file, &self, left, limits)?,
         };
         let (width, height) = (image.width(), image.height());
@@ -158,8 +160,7 @@ impl TextureFile {
             texel[3] = *luminance;
         }
         let (name, srgb, sampling) = (self.named.name, self.color, Sampling::default());
-        let texture = Texture { name, width, height, rgba, srgb, sampling };
-        Ok((texture, missing.map(str::to_owned)))
+        Ok((Texture { name, width, height, rgba, srgb, sampling }, remarks))
     }
 
     fn wants_luminance(&self, color: ColorType) -> bool {
@@ -192,8 +193,8 @@ impl TextureFile {
     }
 }
 
-/// Decodes an image file for its colours, subtracting its size from the remaining bytes; returns also what is missing
-/// in it.
+/// Decodes an image file for its colours, subtracting its size from the remaining bytes; returns also what a user should
+/// know of it.
 ///
 /// # Errors
 /// If it is too large or cannot be decoded.
@@ -201,7 +202,7 @@ pub(crate) fn decode_file(
     named: Named,
     left: &mut u64,
     limits: &Limits,
-) -> Result<(Texture, Option<String>)> {
+) -> Result<(Texture, Vec<Remark>)> {
     TextureFile { named, place: String::new(), color: true, opacity: false }.decode(left, limits)
 }
 
@@ -214,7 +215,7 @@ pub(crate) fn decode_bytes(
     name: String,
     left: &mut u64,
     limits: &Limits,
-) -> Result<(Texture, Option<String>)> {
+) -> Result<(Texture, Vec<Remark>)> {
     let named = Named { name, ..Named::default() };
     let file = TextureFile { named, place: String::new(), color: true, opacity: false };
     file.decode_from(Cursor::new(bytes), left, limits)

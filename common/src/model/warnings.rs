@@ -21,8 +21,12 @@ pub(crate) enum Kind {
     Elsewhere,
     /// A texture of which the end is missing.
     Cut,
+    /// A texture that its file wants turned.
+    Turned,
     /// An option or a form of a statement that is not supported.
     Option,
+    /// A position that is wrong.
+    Position,
     /// A texture coordinate that is wrong or out of range.
     Coordinate,
     /// A normal that is wrong or out of range.
@@ -35,6 +39,8 @@ pub(crate) enum Kind {
     Face,
     /// A statement of another format, or with a wrong value.
     Line,
+    /// A statement about something that is not shown, by the keywords of its kind.
+    Unread,
     /// A number for which another is taken; the message names it, as in the next.
     Number,
     /// More numbers than are taken.
@@ -57,14 +63,16 @@ impl Kind {
             Self::Texture => Some("the plain colour stands for it"),
             Self::Elsewhere => Some("the file of that name beside the model is taken"),
             Self::Cut => Some("what there is of it is shown"),
+            Self::Turned => Some("it is turned, as viewers of photographs do"),
             Self::Untextured => Some("one texel colours the whole face"),
             Self::Option => Some("it is ignored"),
+            Self::Position => Some("the faces that use it are left out"),
             Self::Coordinate => Some("the corner has none"),
             Self::Normal => Some("the triangle's own stands for it"),
             Self::Color => Some("the material's stands for it"),
             Self::Crossing => Some("some triangles stand for it"),
             Self::Face => Some("the face is left out"),
-            Self::Line => Some("the line is ignored"),
+            Self::Line | Self::Unread => Some("the line is ignored"),
             Self::Number | Self::Count | Self::Opacity | Self::Glass | Self::Black => None,
         }
     }

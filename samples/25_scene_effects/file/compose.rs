@@ -1,6 +1,7 @@
 //! From the tables of a scene file to what is rendered.
 
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 use std::path::Path;
 
 use anyhow::Result;
@@ -10,7 +11,7 @@ use common::scene::{Camera, Instance, Material, Mesh, REACH, Scene, assets, plac
 use glam::{Affine3A, Mat3A, Vec3};
 use toml::Spanned;
 
-use super::departure::{Thing, too_high};
+use super::departure;
 use super::description::{
     CameraTable, Description, LensTable, PieceTable, PlaneTable, SphereTable,
 };
@@ -88,7 +89,7 @@ impl Description {
             scene: Scene { model, instances, camera },
         };
         self.add_shapes(&mut composition, &materials, source)?;
-        self.warn_of_planets(&mut composition, source);
+        self.warn_of_planets(&mut composition, path, source);
         composition.prune();
         Ok(composition)
     }
@@ -233,20 +234,15 @@ impl Description {
 }
 
 impl Description {
-    /// Warns of spheres that are too large for what stands on them.
-    fn warn_of_planets(&self, to: &mut Composition, source: &Source) {
-        let ball =
-            |&Sphere { center, radius, .. }: &Sphere| Thing { center, radius, size: 2.0 * radius };
-        let instances = to.scene.instances.iter();
-        let boxes = instances.map(|instance| to.scene.instance_bounds(instance));
-        let boxes = boxes.chain(to.boxes.iter().map(|block| (block.low, block.high)));
-        let boxes = boxes.chain(to.solid_bounds.iter().copied());
-        let things: Vec<Thing> =
-            to.spheres.iter().map(ball).chain(boxes.map(Thing::within)).collect();
-        if let Some((number, what)) = too_high(&to.spheres, &things) {
-            let line = source.error(self.sphere[number].span().start, &what).to_string();
-            to.scene.model.warnings.push(line);
-        }
+    /// Warns of surfaces that are too large, or too far away, for what stands on them.
+    fn warn_of_planets(&self, to: &mut Composition, path: &Path, source: &Source) {
+        let told = departure::told(to);
+        let line = |span: Range<usize>, what: &str| source.error(span.start, what).to_string();
+        let spheres = told.sphere.map(|(number, what)| line(self.sphere[number].span(), &what));
+        let boxes = told.block.map(|(number, what)| line(self.boxes[number].span(), &what));
+        let solids = told.solid.map(|(number, what)| line(self.solid[number].span(), &what));
+        let mesh = told.mesh.map(|what| format!("{}: {what}", shown(path)));
+        to.scene.model.warnings.extend([spheres, boxes, solids, mesh].into_iter().flatten());
     }
 }
 

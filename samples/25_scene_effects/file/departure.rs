@@ -1,36 +1,66 @@
-//! Spheres so large that a ray which leaves one starts above what stands on it.
+//! Surfaces so large or so far away that a ray which leaves one starts above what stands on it.
+
+mod flat;
 
 use std::cmp::Reverse;
 
 use glam::Vec3;
 
-use crate::Sphere;
+use crate::{Composition, Sphere};
+
+/// The error of one rounding in 32 bits, relative.
+const ROUNDING: f32 = f32::EPSILON / 2.0;
 
 /// The part of a thing's height that its shadow may lose.
 const PART: f32 = 1.0 / 16.0;
 
-/// Spheres that are looked at: the largest.
+/// Surfaces of a kind that are looked at: the largest, or those that reach farthest.
 const LARGEST: usize = 16;
 
-/// A thing that may stand on a sphere, with a ball around it.
+/// A thing that may stand on a surface, with a ball around it.
 #[derive(Clone, Copy)]
-pub(super) struct Thing {
-    pub center: Vec3,
-    pub radius: f32,
+struct Thing {
+    center: Vec3,
+    radius: f32,
     /// From end to end.
-    pub size: f32,
+    size: f32,
 }
 
 impl Thing {
     /// The thing in a box.
-    pub fn within((low, high): (Vec3, Vec3)) -> Self {
+    fn within((low, high): (Vec3, Vec3)) -> Self {
         let radius = low.distance(high) / 2.0;
         Self { center: (low + high) / 2.0, radius, size: (high - low).max_element() }
     }
 }
 
+/// What is wrong: the number of the first surface of each kind from which rays start too high, and the message.
+pub(super) struct Told {
+    pub sphere: Option<(usize, String)>,
+    pub block: Option<(usize, String)>,
+    pub solid: Option<(usize, String)>,
+    /// Of meshes, the message names it.
+    pub mesh: Option<String>,
+}
+
+/// Looks at all surfaces of a composition, and all that may stand on them.
+pub(super) fn told(of: &Composition) -> Told {
+    let ball =
+        |&Sphere { center, radius, .. }: &Sphere| Thing { center, radius, size: 2.0 * radius };
+    let instances = of.scene.bounds_of_instances();
+    let blocks = of.boxes.iter().map(|block| (block.low, block.high));
+    let boxes = instances.iter().copied().chain(blocks).chain(of.solid_bounds.iter().copied());
+    let things: Vec<Thing> = of.spheres.iter().map(ball).chain(boxes.map(Thing::within)).collect();
+    Told {
+        sphere: too_high(&of.spheres, &things),
+        block: flat::block(&of.boxes, &things),
+        solid: flat::solid(&of.solids, &of.faces, &of.solid_bounds, &things),
+        mesh: flat::meshes(&of.scene, &instances, &things),
+    }
+}
+
 /// The number of a sphere from which rays start too high for a thing that stands on it, and what is wrong.
-pub(super) fn too_high(spheres: &[Sphere], things: &[Thing]) -> Option<(usize, String)> {
+fn too_high(spheres: &[Sphere], things: &[Thing]) -> Option<(usize, String)> {
     let mut order: Vec<usize> = (0..spheres.len()).collect();
     order.sort_by_key(|&number| Reverse(spheres[number].radius.to_bits()));
     order.into_iter().take(LARGEST).find_map(|number| {
@@ -43,21 +73,25 @@ pub(super) fn too_high(spheres: &[Sphere], things: &[Thing]) -> Option<(usize, S
             (stands && height > PART * thing.size).then_some((height, thing))
         })?;
         let most = brief(sphere.radius * PART * thing.size / height);
-        let what = format!(
-            "rays that leave this sphere start up to {} above it, to be safe from rounding in 32 bits; a thing of size \
-             {} on it loses its shadow there; a radius of at most {most} is right",
-            brief(height),
-            brief(thing.size)
-        );
-        Some((number, what))
+        let what = lost("this sphere", height, thing);
+        Some((number, format!("{what}; a radius of at most {most} is right")))
     })
+}
+
+/// The message about a thing on a surface from which rays start at a height.
+fn lost(surface: &str, height: f32, thing: &Thing) -> String {
+    format!(
+        "rays that leave {surface} start up to {} above it, to be safe from rounding in 32 bits; a thing of size {} \
+         on it loses its shadow there",
+        brief(height),
+        brief(thing.size)
+    )
 }
 
 /// The height above a sphere's surface, in direction `normal`, at which a ray starts, as in
 /// `shaders/25_scene_effects/report.glsl`: the sum of the bounds on what rounds. It grows with the radius, and with
 /// the distance from the origin.
 fn departure(sphere: &Sphere, normal: Vec3) -> f32 {
-    const ROUNDING: f32 = f32::EPSILON / 2.0;
     let point = (sphere.center + sphere.radius * normal).abs();
     ROUNDING * normal.abs().dot(31.0 * point + 46.0 * sphere.radius)
 }

@@ -32,7 +32,10 @@ const VERSION: i64 = 1;
 /// If it is missing or wrong, in one line with file and line.
 pub fn open(path: &Path) -> Result<Composition> {
     if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        return checked(Composition::of_meshes(Scene::open(path)?), path);
+        let mut scene = Composition::of_meshes(Scene::open(path)?);
+        let told = departure::told(&scene).mesh.map(|what| format!("{}: {what}", shown(path)));
+        scene.scene.model.warnings.extend(told);
+        return checked(scene, path);
     }
     let source = Source::open(path)?;
     let table = source.table()?;

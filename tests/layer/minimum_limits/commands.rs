@@ -8,6 +8,7 @@ use ash::vk::PipelineStageFlags2 as Stage;
 use ash::vk::{self, AccessFlags2 as Access, BufferUsageFlags as Usage, Handle};
 use layer::below;
 
+use crate::faults;
 use crate::order::{self, Kind, Use};
 
 const BUILD: Stage = Stage::ACCELERATION_STRUCTURE_BUILD_KHR;
@@ -156,6 +157,12 @@ pub unsafe extern "system" fn dispatch(commands: vk::CommandBuffer, x: u32, y: u
         order::reads(NAME, kind, by(Access::SHADER_STORAGE_READ));
     }
     order::reads(NAME, Kind::Computed, by(Access::SHADER_STORAGE_WRITE));
+    if faults::has("queries") {
+        for kind in [Kind::Built, Kind::Copied] {
+            order::reads(NAME, kind, by(Access::ACCELERATION_STRUCTURE_READ_KHR));
+        }
+        order::reads(NAME, Kind::Drawn, by(Access::SHADER_STORAGE_READ));
+    }
     order::writes(Kind::Computed, by(Access::SHADER_STORAGE_WRITE));
     locked(&NEW).clear();
     // SAFETY: as above.

@@ -5,7 +5,7 @@ use std::ffi::{c_char, c_void};
 use ash::vk;
 use layer::Negotiation;
 
-use crate::{commands, device, memory, physical, queues, rays};
+use crate::{commands, device, drawing, memory, physical, queues, rays};
 use layer::below;
 
 /// Settles on version 2 of the interface, the present one.
@@ -80,6 +80,8 @@ fn device_function(name: &str) -> Option<*const c_void> {
         "vkCmdCopyAccelerationStructureKHR" => commands::copy_structure as *const c_void,
         "vkCmdTraceRaysKHR" => commands::trace as *const c_void,
         "vkCmdDispatch" => commands::dispatch as *const c_void,
+        "vkCmdBeginRendering" | "vkCmdBeginRenderingKHR" => drawing::begin as *const c_void,
+        "vkCmdDraw" => drawing::draw as *const c_void,
         "vkCmdFillBuffer" => commands::fill as *const c_void,
         "vkCmdUpdateBuffer" => commands::update as *const c_void,
         "vkCmdCopyBuffer" => commands::copy as *const c_void,

@@ -15,6 +15,8 @@
 //! - `without=FEATURE`: that feature is missing too.
 //! - `no-ray-tracing`: every extension of ray tracing is hidden, with its features and limits; a buffer for it is
 //!   refused, and a barrier that names its stages ends the process.
+//! - `queries`: the device offers ray queries and position fetch too, and every compute shader may trace rays and read
+//!   what was drawn.
 //! - `portability`: the device offers `VK_KHR_portability_subset`, as those of Macs do, which has no features here.
 //! - `bar`: the host can map device memory too, as with a resizable BAR.
 //! - `rays=NUMBER`: one trace has at most so many rays, fewer than Vulkan allows a device to say.
@@ -28,6 +30,7 @@
 
 mod commands;
 mod device;
+mod drawing;
 mod entry;
 mod faults;
 mod features;

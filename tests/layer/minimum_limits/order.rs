@@ -30,6 +30,8 @@ pub enum Kind {
     Traced,
     /// What compute shaders write.
     Computed,
+    /// What is drawn.
+    Drawn,
     /// What the host reads.
     ReadBack,
 }
@@ -46,7 +48,7 @@ struct Known {
     read: Vec<(Stage, Stage)>,
 }
 
-static KNOWN: Mutex<[Known; 8]> = Mutex::new([const { Known::new() }; 8]);
+static KNOWN: Mutex<[Known; 9]> = Mutex::new([const { Known::new() }; 9]);
 
 /// A command reads, or adds to what was written. Ends the process unless a barrier shows it that.
 pub fn reads(command: &str, kind: Kind, by: Use) {
@@ -82,8 +84,19 @@ pub fn writes(kind: Kind, by: Use) {
 
 /// A memory barrier.
 pub fn barrier(from: Use, to: Use) {
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    apply(&mut known[..], from, to);
+}
+
+/// A barrier of an image: in the samples only those of what is drawn say more than a layout.
+pub fn image_barrier(from: Use, to: Use) {
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    apply(std::slice::from_mut(&mut known[Kind::Drawn as usize]), from, to);
+}
+
+fn apply(to_all: &mut [Known], from: Use, to: Use) {
     let [from, to] = [from, to].map(|(stage, access)| (stages(stage), accesses(access)));
-    for known in KNOWN.lock().unwrap_or_else(PoisonError::into_inner).iter_mut() {
+    for known in to_all {
         let covered = |own: Use| from.0.contains(own.0) && from.1.contains(own.1);
         if known.written.is_some_and(covered) {
             known.seen_by.push(to);
@@ -111,6 +124,7 @@ fn stages(named: Stage) -> Stage {
     let transfer = Stage::COPY | Stage::CLEAR | Stage::BLIT | Stage::RESOLVE;
     let all = transfer
         | Stage::COMPUTE_SHADER
+        | Stage::VERTEX_SHADER
         | Stage::ACCELERATION_STRUCTURE_BUILD_KHR
         | Stage::RAY_TRACING_SHADER_KHR;
     let mut meant = named;

@@ -17,13 +17,18 @@ const RAY_TRACING: [&CStr; 3] = [
     khr::ray_tracing_pipeline::NAME,
 ];
 
+/// The same of samples whose rays need no pipeline, or fetch positions: a narrow device need not have them.
+const QUERIES: [&CStr; 2] = [khr::ray_query::NAME, khr::ray_tracing_position_fetch::NAME];
+
 /// The extensions that the device shows.
 pub fn shown(physical: vk::PhysicalDevice) -> Result<Vec<vk::ExtensionProperties>, vk::Result> {
     let below = below::instance(physical);
     // SAFETY: the physical device is alive.
     let all = unsafe { below.core.enumerate_device_extension_properties(physical)? };
     let is_shown = |name: &CStr| {
-        EXTENSIONS.contains(&name) || RAY_TRACING.contains(&name) && !faults::has("no-ray-tracing")
+        EXTENSIONS.contains(&name)
+            || RAY_TRACING.contains(&name) && !faults::has("no-ray-tracing")
+            || QUERIES.contains(&name) && faults::has("queries")
     };
     let mut shown = all;
     shown.retain(|own| own.extension_name_as_c_str().is_ok_and(is_shown));

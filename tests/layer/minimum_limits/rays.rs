@@ -49,6 +49,12 @@ pub unsafe extern "system" fn barrier(
             let from = (one.src_stage_mask, one.src_access_mask);
             order::barrier(from, (one.dst_stage_mask, one.dst_access_mask));
         }
+        let vk::DependencyInfo { image_memory_barrier_count, p_image_memory_barriers, .. } = *info;
+        for at in 0..image_memory_barrier_count as usize {
+            let one = &*p_image_memory_barriers.add(at);
+            let from = (one.src_stage_mask, one.src_access_mask);
+            order::image_barrier(from, (one.dst_stage_mask, one.dst_access_mask));
+        }
         (below::device(commands).core.fp_v1_3().cmd_pipeline_barrier2)(commands, info);
     }
 }

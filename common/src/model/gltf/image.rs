@@ -13,7 +13,7 @@ use super::file::{File, missing, of_gltf};
 use super::uri::Uri;
 use crate::gpu::{Sampling, Wrap};
 use crate::model::limits::Limits;
-use crate::model::texture::{self, Texture};
+use crate::model::texture::{self, Remark, Texture};
 
 /// What a texture is read for.
 #[derive(Clone, Copy, PartialEq)]
@@ -122,11 +122,9 @@ impl<'a> Images<'a> {
     fn read(&mut self, index: Index<Image>, features: &mut Features) -> Option<Texture> {
         let number = index.value();
         match self.decode(index, features) {
-            Ok((texture, cut)) => {
-                if let Some(cut) = cut {
-                    features.note("cut", 1, || {
-                        format!("image {number}: {cut}; what there is of it is shown")
-                    });
+            Ok((texture, remarks)) => {
+                for (_, what) in remarks {
+                    features.note("remark", 1, || format!("image {number}: {what}"));
                 }
                 Some(texture)
             }
@@ -143,7 +141,7 @@ impl<'a> Images<'a> {
         &mut self,
         index: Index<Image>,
         features: &mut Features,
-    ) -> Result<(Texture, Option<String>)> {
+    ) -> Result<(Texture, Vec<Remark>)> {
         let root = &self.file.root;
         let image = root.get(index).with_context(|| match index.value() {
             NONE => "its texture names none that is read, PNG or JPEG".to_owned(),

@@ -56,7 +56,17 @@ fn every_statement_is_read() {
     };
     assert_eq!(load_mtl(mtl).unwrap(), expected);
     assert_eq!(load_mtl(&mtl.to_uppercase().replace("NEWMTL A", "newmtl a")).unwrap(), expected);
-    assert_eq!(load_warned(mtl).1, [""; 0]);
+    let unread =
+        |line: usize, what: &str| format!("m.mtl:{line}: {what}; the line is ignored (1 in all)");
+    let lines = [
+        unread(
+            13,
+            "Pr belongs to physically based materials, which are not read; Kd, Ks, Ns and illum are",
+        ),
+        unread(14, "map_Ks is a map of highlights, which is not read; Ks and Ns are"),
+        unread(15, "map_Bump is a map of bumps, which are not shown"),
+    ];
+    assert_eq!(load_warned(mtl).1, lines);
     assert!(expected.has_cutout() && !Material::default().has_cutout());
     assert_eq!(load_mtl("newmtl a\r\nTr 0.25\r\n").unwrap().opacity, 0.75);
 }
@@ -97,6 +107,34 @@ fn words_that_are_unknown_are_reported_once_each() {
         load_warned("newmtl a\nka 0.3 0.2 0.03\nkd 0.8 0.1 0.1\nKS 0 0 0\nILLUM 0\n");
     assert_eq!((material.base_color, material.illumination), (Vec3::new(0.8, 0.1, 0.1), 0));
     assert_eq!(warnings, [""; 0]);
+}
+
+#[test]
+fn what_is_not_shown_is_one_warning_for_a_kind() {
+    let kinds = [
+        ("map_Bump a.png\nbump a.png\nnorm a.png\ndisp a.png", "map_Bump is a map of bumps"),
+        ("map_Ns a.png\nmap_Ks a.png", "map_Ns is a map of highlights"),
+        ("MAP_KE a.png", "MAP_KE is a map of emission"),
+        ("map_Tr a.png", "map_Tr is a map of what a material lets through"),
+        ("refl -type sphere a.png", "refl is a picture to be reflected"),
+        ("decal a.png", "decal is a second texture"),
+        ("Pr 0\nPm 1\nmap_Pr a.png\nmap_ORM a.png", "Pr belongs to physically based materials"),
+        // Without them a picture is the same.
+        (
+            "Ka 1 1 1\nmap_Ka a.png\nsharpness 60\nmap_aat on\nPm 0\nPs 0.0\nPc 0\naniso 0\nanisor 0",
+            "",
+        ),
+    ];
+    for (lines, what) in kinds {
+        let (material, warnings) = load_warned(&format!("newmtl a\n{lines}\n{lines}\n"));
+        assert_eq!(material, Material { name: "a".to_owned(), ..Material::default() });
+        let count = 2 * lines.lines().count();
+        let end = format!("; the line is ignored ({count} in all)");
+        let told =
+            |line: &String| line.starts_with(&format!("m.mtl:2: {what}")) && line.ends_with(&end);
+        assert_eq!(warnings.len(), usize::from(!what.is_empty()), "{warnings:?}");
+        assert!(warnings.iter().all(told), "{warnings:?}");
+    }
 }
 
 #[test]

@@ -326,7 +326,8 @@ fn a_model_far_from_the_origin_is_moved_or_warned_of() {
     let [note] = &scene.model.warnings[..] else { panic!("{:?}", scene.model.warnings) };
     assert!(
         note.ends_with(
-            "it was moved by (-388096.5, -3948996.8, 0.0) in 64 bits, and the camera with it"
+            "it was moved by (-388096.5, -3948996.8, 0.0) in 64 bits, and the camera with it; points that you \
+             set, such as \"camera eye\", count from the new origin"
         ),
         "{note}"
     );

@@ -50,12 +50,45 @@ fn a_file_that_is_cut_off() {
 
 #[test]
 fn numbers_that_are_wrong() {
-    line_refused("v 1,0 2 3", "v has \"1,0\", which is not a number; write 1.0");
-    line_refused("v 1 nan 3", "v has \"nan\", which is not a finite 32-bit number");
-    line_refused("v 1 -1.#IND 3", "v has \"-1.#IND\", which is not a finite 32-bit number");
-    line_refused("v 1 2 # 3", "v has 2 numbers; x y z, x y z w or x y z r g b is right");
-    line_refused("v 1 2 3 0", "a position divided by its w is not finite");
-    line_refused("v 1 2 3e38 0.1", "a position divided by its w is not finite");
+    let wrong = |line: &str, what: &str| {
+        let warning = format!("model.obj:4: {what}; the faces that use it are left out (1 in all)");
+        // The positions after it keep their numbers.
+        let text = |faces: &str| format!("v 0 0 0\nv 1 0 0\nv 1 1 0\n{line}\nv 0 1 0\n{faces}");
+        let model = load_text(&text("f 1 2 3\nf 1 2 3 4\nf 4 3 2\nf 1 3 5\n")).unwrap();
+        assert_eq!(model.warnings, [warning]);
+        let shown = load_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n").unwrap();
+        assert_eq!(model.meshes, shown.meshes, "{line}");
+        // Without any other face, it is the reason why nothing is shown.
+        refused(&text("f 1 2 4\n"), &format!("model.obj:4: {what}"));
+    };
+    wrong("v 1,0 2 3", "v has \"1,0\", which is not a number; write 1.0");
+    for nan in ["nan", "NaN", "-nan(ind)", "inf", "-Infinity", "1e39", "-1.#IND"] {
+        let why = if nan.contains('(') { "not a number" } else { "not a finite 32-bit number" };
+        wrong(&format!("v 1 {nan} 3"), &format!("v has \"{nan}\", which is {why}"));
+    }
+    wrong("v 1 2 # 3", "v has 2 numbers; x y z, x y z w or x y z r g b is right");
+    wrong("v", "v has 0 numbers; x y z, x y z w or x y z r g b is right");
+    wrong("v 1 2 3 0", "a position divided by its w is not finite");
+    wrong("v 1 2 3e38 0.1", "a position divided by its w is not finite");
+}
+
+#[test]
+fn wrong_positions_are_one_warning_and_stay_out_of_everything() {
+    let wrong = "v nan 0 0\nv 0 0 inf\nv 0 0\n";
+    let good = "v 5e5 0 0\nv 500001 0 0\nv 500001 1 0\nv 5e5 1 0\ns 1\n";
+    let faces = "f -4 -3 -2\nf -4 -2 -1\n";
+    let with = load_text(&format!("{wrong}{good}f 1 4 5\nf 4 5 6 2\nf 3 3 3\n{faces}")).unwrap();
+    let without = load_text(&format!("{good}{faces}")).unwrap();
+    assert_eq!(with.meshes, without.meshes);
+    let words = "model.obj:1: v has \"nan\", which is not a finite 32-bit number; the faces that use it are \
+                 left out (3 in all)";
+    assert_eq!(with.warnings[0], words);
+    assert_eq!(with.warnings[1..], without.warnings);
+    // After the limit nothing is stored, and so nothing is known of a position.
+    let limits = Limits { memory: 4_000_000, ..Limits::DEFAULT };
+    let many = format!("v nan 0 0\nv 0 0 0\nf{}\n", " 2".repeat(1000)).repeat(10_000);
+    let error = load_files(&[("model.obj", many.as_bytes())], &limits).unwrap_err();
+    assert!(error.starts_with("model.obj: would take up to 6.2 GB of memory"), "{error}");
 }
 
 #[test]

@@ -4,10 +4,12 @@ use std::io::{BufReader, Cursor, Read};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use image::codecs::jpeg::JpegDecoder;
+use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder};
 
-use super::{TextureFile, check_sides};
+use super::{Remark, TextureFile, check_sides};
 use crate::model::limits::Limits;
+use crate::model::warnings::Kind;
 
 /// The longest side of the blocks that are decoded together, in texels: 4 times a transform of 8.
 const BLOCK: u64 = 32;
@@ -15,13 +17,13 @@ const BLOCK: u64 = 32;
 /// Bytes of the coefficients of a texel in a progressive file, which are all kept: two for each of four channels.
 const COEFFICIENTS: u64 = 2 * 4;
 
-/// Decodes a JPEG file; returns also what is missing in it.
+/// Decodes a JPEG file, and turns it as it says; returns also what a user should know of it.
 pub(super) fn decode(
     mut file: BufReader<impl Read>,
     texture: &TextureFile,
     left: &mut u64,
     limits: &Limits,
-) -> Result<(DynamicImage, Option<&'static str>)> {
+) -> Result<(DynamicImage, Vec<Remark>)> {
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(|error| anyhow!("cannot be read: {}", error.kind()))?;
     let frame = Frame::of(&bytes)?;
@@ -36,14 +38,25 @@ pub(super) fn decode(
     let is_whole = bytes[frame.scan..].windows(2).any(|pair| pair == END);
     let blocks = (u64::from(width) + BLOCK) * (u64::from(height) + BLOCK);
     let coefficients = if frame.is_progressive { COEFFICIENTS * blocks } else { 0 };
-    let decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(broken)?;
+    let mut decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(broken)?;
     ensure!(
         decoder.dimensions() == (width, height),
         "cannot be decoded, it has two sizes; save it again as JPEG or PNG"
     );
-    texture.take((width, height), decoder.color_type(), copies + coefficients, left, limits)?;
-    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
-    Ok((image, (!is_whole).then_some("has no end mark, and so is cut off; copy it again")))
+    let orientation = decoder.orientation().map_err(broken)?;
+    let is_turned = orientation != Orientation::NoTransforms;
+    // A turn by a quarter needs room for both.
+    let turned =
+        u64::from(decoder.color_type().bytes_per_pixel()) * u64::from(width) * u64::from(height);
+    let decoding = copies + coefficients + if is_turned { turned } else { 0 };
+    texture.take((width, height), decoder.color_type(), decoding, left, limits)?;
+    let mut image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    image.apply_orientation(orientation);
+    let cut = (Kind::Cut, "has no end mark, and so is cut off; copy it again");
+    let turn =
+        (Kind::Turned, "says in its EXIF data that it does not stand upright; save it upright");
+    let remarks = [(!is_whole).then_some(cut), is_turned.then_some(turn)];
+    Ok((image, remarks.into_iter().flatten().collect()))
 }
 
 /// The mark at the end of an image.
@@ -109,3 +122,6 @@ impl Frame {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
