@@ -1,9 +1,11 @@
 //! The two forms of a glTF file: JSON as text, or a binary container (GLB) of JSON and one buffer.
 
+use std::fmt::Display;
 use std::ops::Range;
 
 use anyhow::{Result, anyhow, bail, ensure};
 use gltf::json::Root;
+use serde_json::Value;
 
 /// The first bytes of a GLB file.
 pub(super) const MAGIC: &[u8] = b"glTF";
@@ -78,6 +80,11 @@ fn number(bytes: &[u8], at: usize) -> Result<u32> {
     }
 }
 
+/// The message about a file of another version.
+pub(super) fn other_version(version: impl Display) -> String {
+    format!("is glTF {version}, and glTF 2 is read; export it again as glTF 2.0")
+}
+
 /// Parses the JSON part.
 ///
 /// # Errors
@@ -93,7 +100,10 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
         gigabytes(need),
         gigabytes(memory)
     );
-    serde_json::from_slice(json).or_else(|error| with_nodes(json).ok_or(error)).map_err(|error| {
+    serde_json::from_slice(json).or_else(|error| mended(json).ok_or(error)).map_err(|error| {
+        if let Some(old) = version(json).filter(|version| !version.starts_with("2.")) {
+            return anyhow!("{}", other_version(&old));
+        }
         let place = match (is_text, error.line()) {
             (_, 0) => String::new(),
             (true, line) => format!("line {line}: "),
@@ -104,13 +114,36 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
     })
 }
 
-/// Parses a JSON part in which a scene has no nodes, which is allowed, and which the parser does not allow.
-fn with_nodes(json: &[u8]) -> Option<Root> {
-    let mut value: serde_json::Value = serde_json::from_slice(json).ok()?;
-    for scene in value.get_mut("scenes")?.as_array_mut()? {
-        scene.as_object_mut()?.entry("nodes").or_insert_with(|| Vec::<u32>::new().into());
+/// Parses a JSON part with what glTF allows and the parser does not: a scene without nodes, and animations, which are
+/// not shown, of anything but a node.
+fn mended(json: &[u8]) -> Option<Root> {
+    let mut value: Value = serde_json::from_slice(json).ok()?;
+    let list = |value: &mut Value, key: &str| -> Vec<Value> {
+        value.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default()
+    };
+    let mut scenes = list(&mut value, "scenes");
+    for scene in &mut scenes {
+        scene.as_object_mut()?.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
     }
+    let animations = list(&mut value, "animations").len();
+    let root = value.as_object_mut()?;
+    root.insert("scenes".to_owned(), Value::Array(scenes));
+    let still = serde_json::json!({"channels": [], "samplers": []});
+    root.insert("animations".to_owned(), Value::Array(vec![still; animations]));
     serde_json::from_value(value).ok()
+}
+
+/// The version that a JSON part states, if only that can be read.
+fn version(json: &[u8]) -> Option<String> {
+    #[derive(serde::Deserialize)]
+    struct Head {
+        asset: Asset,
+    }
+    #[derive(serde::Deserialize)]
+    struct Asset {
+        version: String,
+    }
+    Some(serde_json::from_slice::<Head>(json).ok()?.asset.version)
 }
 
 /// The reason of the parser in our own words, which name what it names.

@@ -7,7 +7,7 @@ use std::path::Path;
 use anyhow::{Context, Result, anyhow, ensure};
 use gltf::json::{Buffer, Index, Root, buffer};
 
-use super::container::{Parts, parse};
+use super::container::{Parts, other_version, parse};
 use super::uri::Uri;
 use crate::model::limits::Limits;
 use crate::model::text::{Folder, read, shown};
@@ -44,10 +44,7 @@ impl File {
         let is_text = parts.json.start < 4;
         let root = parse(&bytes[parts.json], is_text, limits.memory).map_err(in_file)?;
         let version = root.asset.version.as_str();
-        ensure!(
-            version.starts_with("2."),
-            "{shown}: is glTF {version}, and glTF 2 is read; export it again as glTF 2.0"
-        );
+        ensure!(version.starts_with("2."), "{shown}: {}", other_version(version));
         let buffers = root.buffers.iter().map(|_| OnceCell::new()).collect();
         let limits = *limits;
         let elsewhere = RefCell::default();
