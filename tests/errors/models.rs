@@ -51,7 +51,9 @@ fn a_gltf_file_is_shown_or_refused() {
     let (code, said) = run(&with_picture);
     assert_eq!((code, said.lines().count()), (Some(0), 2), "{said}");
     assert!(
-        said.contains("has lights; this one has its own; 25_scene_effects shows them (2 in all)")
+        said.contains(
+            "has lights; this chapter has its own; 25_scene_effects shows them (2 in all)"
+        )
     );
     let (code, said) = run(&whole);
     let gone = "image 0: its URI names \"fretwork.png\", which is not there; the plain colour stands for it";

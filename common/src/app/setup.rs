@@ -52,7 +52,7 @@ impl Setup {
         let mut scene = Scene::open(path)?;
         let lights = scene.model.lights.len();
         if lights > 0 {
-            let lit = "this one has its own; 25_scene_effects shows them";
+            let lit = "this chapter has its own; 25_scene_effects shows them";
             scene
                 .model
                 .warnings

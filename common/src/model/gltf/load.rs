@@ -115,6 +115,11 @@ impl<'a> Loading<'a> {
         warnings.extend(turned);
         warnings.extend(far.map(|far| format!("{}: {}", file.shown, far.moved())));
         if !meshes.iter().any(Mesh::has_area) {
+            let is_compressed = |name: &String| extensions::COMPRESSED.contains(&name.as_str());
+            ensure!(
+                !root.extensions_used.iter().any(is_compressed),
+                "its geometry is compressed; export it without compression"
+            );
             let what = "none of its triangles has an area, and so nothing of it is seen";
             warnings.push(format!("{}: {what}", file.shown));
         }

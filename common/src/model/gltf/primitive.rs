@@ -76,6 +76,15 @@ impl File {
             });
         }
         ensure!(!kept.is_empty(), "it has no triangle whose indices and positions are right");
+        let is_blind =
+            |normal: &&[f32; 3]| unit(Vec3::from(**normal)).is_none_or(|n| !n.is_finite());
+        let blind = normals.iter().filter(is_blind).count();
+        if blind > 0 {
+            features.note("normals", blind, || {
+                let mesh = quoted(name);
+                format!("mesh {mesh} has normals without a direction; the triangle's own stands for each")
+            });
+        }
         let mut vertices = Vec::new();
         // The vertex of each corner with a normal; the others stay with their triangle.
         let mut known = vec![u32::MAX; count];

@@ -418,6 +418,31 @@ fn a_binary_file_is_the_same_as_its_text() {
 }
 
 #[test]
+fn what_gltf_allows_and_the_parser_does_not_is_read() {
+    let mut data = Data::default();
+    let at = data.floats(&CORNERS);
+    let text = data.file(&one(&format!(r#""attributes":{{"POSITION":{at}}},"mode":6"#)));
+    let odd = text.replacen(
+        r#""scenes":[{"nodes":[0]}]"#,
+        r#""scenes":[{"nodes":[0]},{"name":"empty"}],"animations":[{"channels":[{"sampler":0,"target":{"path":"pointer"}}],"samplers":[]}]"#,
+        1,
+    );
+    let scene = shown(&odd);
+    assert_eq!(scene.model.meshes, shown(&text).model.meshes);
+    assert_eq!(scene.model.warnings.len(), 2, "{:?}", scene.model.warnings);
+    let transposed = text.replacen(
+        r#"{"mesh":0}"#,
+        r#"{"mesh":0,"matrix":[1,0,0,5,0,1,0,6,0,0,1,7,0,0,0,1]}"#,
+        1,
+    );
+    let scene = shown(&transposed);
+    assert!(scene.model.warnings[0].contains("the matrix of node 0 is transposed"));
+    assert_eq!(scene.instances[0].transform.translation, glam::Vec3A::new(5.0, 6.0, 7.0));
+    let old = refused(r#"{"asset":{"version":"1.0"},"nodes":{}}"#);
+    assert_eq!(old, "m.gltf: is glTF 1.0, and glTF 2 is read; export it again as glTF 2.0");
+}
+
+#[test]
 fn what_cannot_be_read_is_refused_in_one_line() {
     let mut data = Data::default();
     let at = data.floats(&CORNERS);
