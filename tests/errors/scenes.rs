@@ -360,7 +360,8 @@ fn another_chapter_says_who_reads_scene_files() {
     for name in ["02_basic", "12_infinite_plane"] {
         let mut command = run::command(name);
         command.args(["--headless", "--scene", "samples/assets/scenes/lake.toml"]);
-        let words = ["lake.toml: a scene file, which 25_scene_effects alone reads", "an OBJ or glTF file"];
+        let words =
+            ["lake.toml: a scene file, which 25_scene_effects alone reads", "an OBJ or glTF file"];
         refused_by(command, 2, &words);
     }
 }

@@ -129,7 +129,7 @@ fn a_wrong_stride_leads_to_the_records_that_the_formula_says() {
             let first = place(&places, answer.instance).start as u32;
             let taken = sbt::hit_record(RAY_TYPES * first, answer.instance - first, stride, 0);
             // Odd records are for inspection.
-            let expected = if taken % RAY_TYPES == 0 { taken as f32 } else { INSPECTED };
+            let expected = if taken.is_multiple_of(RAY_TYPES) { taken as f32 } else { INSPECTED };
             assert_eq!(record[3], expected, "stride {stride}: {answer:?}");
             wrong += usize::from(taken != RAY_TYPES * answer.instance);
         }

@@ -45,7 +45,7 @@ pub(super) fn first(
         let range = Camera::FIELD_OF_VIEW;
         let fov_y = f64::from(perspective.yfov).to_degrees();
         let is_right = eye.is_finite() && forward != DVec3::ZERO && up != DVec3::ZERO;
-        if !is_right || !(fov_y > 0.0 && fov_y < 180.0) {
+        if !(is_right && fov_y > 0.0 && fov_y < 180.0) {
             features.note("camera", 1, || {
                 let number = index.value();
                 format!(
