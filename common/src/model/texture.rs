@@ -32,7 +32,7 @@ pub struct Texture {
     /// True if RGB is sRGB encoded: for colours, but not for a file that is used only for opacity. Alpha is always
     /// linear.
     pub srgb: bool,
-    /// How it is read between its texels and beyond its edges.
+    /// Filter, and continuation beyond the edges.
     pub sampling: Sampling,
 }
 
@@ -50,7 +50,7 @@ impl Texture {
     }
 }
 
-/// What a user should know of a texture that is shown.
+/// A remark about a texture that is shown, and its kind.
 pub(crate) type Remark = (warnings::Kind, &'static str);
 
 /// The use of a texture in a material.

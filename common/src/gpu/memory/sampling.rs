@@ -1,8 +1,8 @@
-//! How textures are sampled.
+//! The sampling of textures: between texels, and beyond edges.
 
 use ash::vk;
 
-/// How a texture is read between its texels and beyond its edges. The default repeats it, and blends four texels.
+/// The way a texture is read between its texels and beyond its edges. The default repeats it, and blends four texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sampling {
     /// Beyond the left and right edge.

@@ -23,12 +23,16 @@ impl File {
         Ok(self.accessor(index)?.count.0)
     }
 
-    /// The elements of an accessor of `N` numbers each; whole ones become fractions if it says so.
+    /// The `count` elements of an accessor, of `N` numbers each; whole ones become fractions if it says so.
     ///
     /// # Errors
-    /// If it has another type, or reaches beyond its buffer.
-    pub fn floats<const N: usize>(&self, index: Index<Accessor>) -> Result<Vec<[f32; N]>> {
-        let elements = self.elements(index, &[N])?;
+    /// If it has another type or count, or reaches beyond its buffer.
+    pub fn floats<const N: usize>(
+        &self,
+        index: Index<Accessor>,
+        count: usize,
+    ) -> Result<Vec<[f32; N]>> {
+        let elements = self.elements(index, &[N], count)?;
         let numbers = elements.numbers();
         let mut list = Vec::with_capacity(numbers.len() / N);
         list.extend(numbers.chunks_exact(N).map(|numbers| {
@@ -43,9 +47,9 @@ impl File {
     ///
     /// # Errors
     /// As [`File::floats`].
-    pub fn colors(&self, index: Index<Accessor>) -> Result<Vec<[f32; 3]>> {
+    pub fn colors(&self, index: Index<Accessor>, count: usize) -> Result<Vec<[f32; 3]>> {
         let width = width(self.accessor(index)?)?;
-        let numbers = self.elements(index, &[3, 4])?.numbers();
+        let numbers = self.elements(index, &[3, 4], count)?.numbers();
         Ok(numbers.chunks_exact(width).map(|color| [color[0], color[1], color[2]]).collect())
     }
 
@@ -53,8 +57,12 @@ impl File {
     ///
     /// # Errors
     /// If it has another type, or reaches beyond its buffer.
-    pub fn integers<const N: usize>(&self, index: Index<Accessor>) -> Result<Vec<[u32; N]>> {
-        let numbers = self.elements(index, &[N])?.whole();
+    pub fn integers<const N: usize>(
+        &self,
+        index: Index<Accessor>,
+        count: usize,
+    ) -> Result<Vec<[u32; N]>> {
+        let numbers = self.elements(index, &[N], count)?.whole();
         let numbers = numbers.with_context(|| {
             format!("accessor {} holds no unsigned whole numbers", index.value())
         })?;
@@ -70,8 +78,9 @@ impl File {
         self.root.get(index).with_context(|| missing("accessor", index, &self.root.accessors))
     }
 
-    /// The elements of an accessor, whose type must have one of the `widths`.
-    fn elements(&self, index: Index<Accessor>, widths: &[usize]) -> Result<Elements> {
+    /// The elements of an accessor, whose type must have one of the `widths`. The `count` has been counted: an accessor
+    /// of zeros, which takes no bytes of a file, may state any.
+    fn elements(&self, index: Index<Accessor>, widths: &[usize], count: usize) -> Result<Elements> {
         let accessor = self.accessor(index)?;
         let number = index.value();
         let width = width(accessor)?;
@@ -85,7 +94,11 @@ impl File {
         };
         let component = component.0;
         let size = width * component.size();
-        let count = usize::try_from(accessor.count.0)?;
+        ensure!(
+            accessor.count.0 == count as u64,
+            "accessor {number} has {} elements, where there are {count}",
+            accessor.count.0
+        );
         let whole = count.checked_mul(size).context("an accessor has too many elements")?;
         let mut bytes = match accessor.buffer_view {
             // All zero, except for its sparse elements.
@@ -102,6 +115,7 @@ impl File {
                 bail!("accessor {number} has sparse indices of an unknown type");
             };
             let changed = usize::try_from(sparse.count.0)?;
+            ensure!(changed <= count, "accessor {number} changes {changed} elements of {count}");
             let (indices, values) = (&sparse.indices, &sparse.values);
             let at = indices.byte_offset.0;
             let at = self.strided(indices.buffer_view, at, kind.0.size(), changed)?;
@@ -133,7 +147,11 @@ impl File {
             return Ok(Vec::new());
         }
         let stride = described.byte_stride.map_or(size, |stride| stride.0);
-        ensure!(stride > 0, "buffer view {} has the stride 0", view.value());
+        ensure!(
+            stride >= size,
+            "buffer view {} has the stride {stride}, and an element {size} bytes",
+            view.value()
+        );
         let end = (count - 1).checked_mul(stride).and_then(|last| last.checked_add(size));
         let range = usize::try_from(offset)
             .ok()

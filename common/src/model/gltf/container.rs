@@ -18,6 +18,10 @@ const CHUNK: usize = 8;
 
 /// Bytes that an object of the JSON part may take in memory; the largest, a material, has 600.
 const OBJECT: u64 = 1024;
+/// Bytes that a value of a list may take, in a list that grows by doubling.
+const VALUE: u64 = 64;
+/// The largest JSON part that is parsed a second time, into values.
+const MENDED: usize = 16 << 20;
 
 /// The JSON part of a file and the place of its buffer.
 pub(super) struct Parts {
@@ -91,8 +95,9 @@ pub(super) fn other_version(version: impl Display) -> String {
 /// If it is not JSON, not glTF 2, or would take more than `memory` bytes; says where.
 pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
     // Three bytes make an object, so a small file could take all memory.
-    let objects = json.iter().filter(|&&byte| byte == b'{').count() as u64;
-    let need = objects * OBJECT + 8 * json.len() as u64;
+    let count = |letter: u8| json.iter().filter(|&&byte| byte == letter).count() as u64;
+    let objects = count(b'{');
+    let need = objects * OBJECT + count(b',') * VALUE + 2 * json.len() as u64;
     let gigabytes = |bytes: u64| bytes as f64 / 1e9;
     ensure!(
         need <= memory,
@@ -117,6 +122,9 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
 /// Parses a JSON part with what glTF allows and the parser does not: a scene without nodes, and animations, which are
 /// not shown, of anything but a node.
 fn mended(json: &[u8]) -> Option<Root> {
+    if json.len() > MENDED {
+        return None;
+    }
     let mut value: Value = serde_json::from_slice(json).ok()?;
     let list = |value: &mut Value, key: &str| -> Vec<Value> {
         value.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default()

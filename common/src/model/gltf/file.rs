@@ -16,7 +16,7 @@ use crate::model::text::{Folder, read, shown};
 pub(super) struct File {
     /// The file in messages.
     pub shown: String,
-    /// What its JSON part says.
+    /// Its JSON part.
     pub root: Root,
     /// The folder that its buffers and images are in.
     pub folder: Folder,

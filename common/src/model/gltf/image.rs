@@ -10,12 +10,13 @@ use gltf::json::{Image, Index, Texture as Source};
 
 use super::features::Features;
 use super::file::{File, missing, of_gltf};
+use super::name;
 use super::uri::Uri;
 use crate::gpu::{Sampling, Wrap};
 use crate::model::limits::Limits;
 use crate::model::texture::{self, Remark, Texture};
 
-/// What a texture is read for.
+/// The use of a texture.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Use {
     /// Its colour; and its alpha, for transparency.
@@ -147,10 +148,7 @@ impl<'a> Images<'a> {
             NONE => "its texture names none that is read, PNG or JPEG".to_owned(),
             _ => missing("image", index, &root.images),
         })?;
-        let name = match &image.name {
-            Some(name) => name.clone(),
-            None => format!("image {}", index.value()),
-        };
+        let name = name::of(image.name.as_ref(), "image", index.value());
         let (left, limits) = (&mut self.left, self.limits);
         match (image.buffer_view, &image.uri) {
             (Some(view), _) => {

@@ -9,7 +9,7 @@ use super::file::File;
 use super::nodes::Placed;
 use crate::scene::light::{LightSource, PointLight, Sun};
 
-/// How much brighter or darker than the sun of the chapters lights may be without being scaled.
+/// The largest factor between lights and the sun of the chapters at which lights are not scaled.
 const USUAL: f32 = 20.0;
 
 /// The lights of a scene, in its order.

@@ -1,21 +1,21 @@
 //! Loading an untrusted glTF file as a scene.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, ensure};
-use glam::{Affine3A, DAffine3, DMat3, DMat4, DVec3, Vec3};
+use glam::{Affine3A, DAffine3, DMat4, DVec3, Vec3};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
+use super::extent::{bounds, check_size, is_solid};
 use super::features::Features;
 use super::file::File;
 use super::image::Images;
 use super::material::Look;
 use super::nodes::{self, Placed};
 use super::pose::Pose;
-use super::tally::Tally;
-use super::{camera, container, extensions, lights};
+use super::{camera, container, extensions, lights, name, pose, tally};
 use crate::model::glass::{is_body, turn_outwards};
 use crate::model::limits::Limits;
 use crate::model::obj::Model;
@@ -23,7 +23,7 @@ use crate::model::positions::Far;
 use crate::model::text::quoted;
 use crate::scene::light::LightSource;
 use crate::scene::material::Material;
-use crate::scene::mesh::{LEAST, Mesh, REACH};
+use crate::scene::mesh::Mesh;
 use crate::scene::world::{Instance, Scene};
 
 /// True for a file that is to be read as glTF, by its name or by its first bytes.
@@ -72,8 +72,8 @@ impl<'a> Loading<'a> {
         let root = &file.root;
         extensions::check(root, features)?;
         let placed = nodes::visit(root, features)?;
-        count(file, &placed, limits)?;
-        note_what_moves(file, &placed, features);
+        tally::check(file, &placed, limits)?;
+        pose::note(file, &placed, features);
 
         let mut images = Images::new(file, limits);
         let looks = root.materials.iter().enumerate();
@@ -186,8 +186,7 @@ impl<'a> Loading<'a> {
             for (part, primitive) in mesh.primitives.iter().enumerate() {
                 let key = (index.value(), part, posed);
                 let known = made.entry(key).or_insert_with(|| {
-                    let name =
-                        mesh.name.clone().unwrap_or_else(|| format!("mesh {}", index.value()));
+                    let name = name::of(mesh.name.as_ref(), "mesh", index.value());
                     self.primitive(&name, primitive, &pose, features)
                 });
                 instances.extend(known.map(|mesh| (mesh, transform)));
@@ -255,7 +254,13 @@ impl<'a> Loading<'a> {
         let Some(accessor) = self.file.attribute(primitive, Semantic::Colors(0)) else {
             return Vec3::ONE;
         };
-        let colors = self.file.colors(accessor).unwrap_or_default();
+        let positions = self.file.attribute(primitive, Semantic::Positions);
+        let count = positions.and_then(|accessor| self.file.count(accessor).ok());
+        let count = count.unwrap_or_default() as usize;
+        let colors = self.file.colors(accessor, count).unwrap_or_else(|error| {
+            features.note("attribute", 1, || format!("COLOR_0 is left out: {error}"));
+            Vec::new()
+        });
         let Some(&first) = colors.first() else { return Vec3::ONE };
         if colors.iter().any(|color| *color != first) {
             features.note("colors", 1, || {
@@ -268,97 +273,11 @@ impl<'a> Loading<'a> {
     }
 }
 
-/// Counts the memory that all meshes will take.
-fn count(file: &File, placed: &[Placed], limits: &Limits) -> Result<()> {
-    let mut tally = Tally::default();
-    let mut seen = BTreeSet::new();
-    let mut instances = 0;
-    for Placed { node, number, .. } in placed {
-        let Some(index) = node.mesh else { continue };
-        let Some(mesh) = file.root.get(index) else { continue };
-        instances += mesh.primitives.len();
-        let weights = node.weights.is_some() || mesh.weights.is_some();
-        let own = (node.skin.is_some() || weights).then_some(*number);
-        if seen.insert((index.value(), own)) {
-            mesh.primitives.iter().for_each(|primitive| tally.add(file, primitive));
-        }
-    }
-    tally.check(instances, limits)
-}
-
-/// Notes what would move.
-fn note_what_moves(file: &File, placed: &[Placed], features: &mut Features) {
-    let animations = file.root.animations.len();
-    if animations > 0 {
-        features.note("animation", animations, || {
-            "has animations; the model stands as its nodes say".to_owned()
-        });
-    }
-    let has_skin = |placed: &&Placed| placed.node.skin.is_some();
-    let skins = placed.iter().filter(has_skin).count();
-    if skins > 0 {
-        features
-            .note("skin", skins, || "has a skin; it is shown in the pose of its nodes".to_owned());
-    }
-    let meshes = placed.iter().filter_map(|placed| file.root.get(placed.node.mesh?));
-    let has_targets = |primitive: &Primitive| primitive.targets.is_some();
-    let morphs = meshes.filter(|mesh| mesh.primitives.iter().any(has_targets)).count();
-    if morphs > 0 {
-        features.note("morph", morphs, || {
-            "has morph targets; it is shown with their first weights".to_owned()
-        });
-    }
-}
-
-/// The box around everything, in 64 bits.
-fn bounds(meshes: &[Mesh], instances: &[(usize, DAffine3)]) -> (DVec3, DVec3) {
-    let boxes: Vec<_> = meshes.iter().map(Mesh::bounds).collect();
-    let moved = |&(mesh, transform): &(usize, DAffine3)| {
-        let (low, high): (Vec3, Vec3) = boxes[mesh];
-        let (low, high) = (low.as_dvec3(), high.as_dvec3());
-        let half = (high - low) * 0.5;
-        let middle = transform.transform_point3((low + high) * 0.5);
-        let DMat3 { x_axis, y_axis, z_axis } = transform.matrix3;
-        let reach = x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z;
-        (middle - reach, middle + reach)
-    };
-    instances
-        .iter()
-        .map(moved)
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), (l, h)| {
-            (low.min(l), high.max(h))
-        })
-}
-
-/// Checks that rays can hit the model.
-fn check_size(low: DVec3, high: DVec3) -> Result<()> {
-    let reach = low.abs().max(high.abs()).max_element();
-    ensure!(
-        reach <= REACH.into(),
-        "reaches {reach:e} from the origin; beyond {REACH:e}, products of four coordinates overflow in 32 bits"
-    );
-    let size = (high - low).max_element();
-    ensure!(
-        size == 0.0 || size >= LEAST.into(),
-        "is {size:e} from end to end; below {LEAST:e}, products of two lengths vanish in 32 bits"
-    );
-    Ok(())
-}
-
-/// True if a transform is finite and does not make everything flat.
-fn is_solid(transform: &DMat4) -> bool {
-    let small = DAffine3::from_mat4(*transform);
-    let columns = [small.matrix3.x_axis, small.matrix3.y_axis, small.matrix3.z_axis];
-    let columns = columns.map(|column| column.as_vec3().as_dvec3());
-    let is_finite =
-        columns.iter().all(|column| column.is_finite()) && small.translation.as_vec3().is_finite();
-    let [x, y, z] = columns.map(DVec3::normalize_or_zero);
-    is_finite && x.dot(y.cross(z)) != 0.0
-}
-
 /// The names that several meshes of a file have.
 fn ambiguous(file: &File) -> Vec<String> {
-    let mut names: Vec<_> = file.root.meshes.iter().filter_map(|mesh| mesh.name.clone()).collect();
+    let meshes = file.root.meshes.iter().enumerate();
+    let mut names: Vec<_> =
+        meshes.map(|(number, mesh)| name::of(mesh.name.as_ref(), "mesh", number)).collect();
     names.sort_unstable();
     let mut twice: Vec<_> =
         names.windows(2).filter(|two| two[0] == two[1]).map(|two| two[0].clone()).collect();

@@ -11,6 +11,7 @@ use gltf::json::validation::Checked;
 
 use super::features::Features;
 use super::image::{Images, Use};
+use super::name;
 use crate::model::text::quoted;
 use crate::scene::material::Material;
 
@@ -107,7 +108,7 @@ impl Look {
         images: &mut Images,
         features: &mut Features,
     ) -> Self {
-        let name = source.name.clone().unwrap_or_else(|| format!("material {number}"));
+        let name = name::of(source.name.as_ref(), "material", number);
         let place = || format!("material {number}, {},", quoted(&name));
         let values = Values::of(source, images, features);
         let color = values.color.truncate().clamp(Vec3::ZERO, Vec3::ONE);

@@ -5,7 +5,9 @@ use glam::{DMat4, DVec3, Vec3};
 use gltf::json::mesh::{MorphTarget, Primitive, Semantic};
 use gltf::json::{Accessor, Index, Node, Skin};
 
+use super::features::Features;
 use super::file::File;
+use super::nodes::Placed;
 
 /// The most joints of a skin that move one vertex, in sets of four.
 const SETS: u32 = 4;
@@ -54,12 +56,13 @@ impl Pose {
         positions: &mut [Vec3],
         normals: &mut [[f32; 3]],
     ) -> Result<()> {
+        let count = positions.len();
         let targets = primitive.targets.as_deref().unwrap_or_default();
         for (MorphTarget { positions: moved, normals: turned, .. }, &weight) in
             targets.iter().zip(&self.weights).filter(|(_, weight)| **weight != 0.0)
         {
             let read = |accessor: &Option<Index<Accessor>>| match accessor {
-                Some(accessor) => file.floats::<3>(*accessor),
+                Some(accessor) => file.floats::<3>(*accessor, count),
                 None => Ok(Vec::new()),
             };
             for (position, by) in positions.iter_mut().zip(read(moved)?) {
@@ -76,7 +79,8 @@ impl Pose {
             let indices = file.attribute(primitive, Semantic::Joints(set));
             let weights = file.attribute(primitive, Semantic::Weights(set));
             let (Some(indices), Some(weights)) = (indices, weights) else { break };
-            let (indices, weights) = (file.integers::<4>(indices)?, file.floats::<4>(weights)?);
+            let indices = file.integers::<4>(indices, count)?;
+            let weights = file.floats::<4>(weights, count)?;
             for ((matrix, indices), weights) in matrices.iter_mut().zip(indices).zip(weights) {
                 for (joint, weight) in indices.into_iter().zip(weights) {
                     if let Some(joint) = joints.get(joint as usize).filter(|_| weight != 0.0) {
@@ -102,10 +106,34 @@ impl Pose {
     }
 }
 
+/// Notes what would move.
+pub(super) fn note(file: &File, placed: &[Placed], features: &mut Features) {
+    let animations = file.root.animations.len();
+    if animations > 0 {
+        features.note("animation", animations, || {
+            "has animations; the model stands as its nodes say".to_owned()
+        });
+    }
+    let has_skin = |placed: &&Placed| placed.node.skin.is_some();
+    let skins = placed.iter().filter(has_skin).count();
+    if skins > 0 {
+        features
+            .note("skin", skins, || "has a skin; it is shown in the pose of its nodes".to_owned());
+    }
+    let meshes = placed.iter().filter_map(|placed| file.root.get(placed.node.mesh?));
+    let has_targets = |primitive: &Primitive| primitive.targets.is_some();
+    let morphs = meshes.filter(|mesh| mesh.primitives.iter().any(has_targets)).count();
+    if morphs > 0 {
+        features.note("morph", morphs, || {
+            "has morph targets; it is shown with their first weights".to_owned()
+        });
+    }
+}
+
 /// For each joint of a skin, from the mesh's space in its bind pose to the world.
 fn joints(file: &File, skin: &Skin, placed: &[Option<DMat4>]) -> Result<Vec<DMat4>> {
     let inverse = match skin.inverse_bind_matrices {
-        Some(accessor) => file.floats::<16>(accessor)?,
+        Some(accessor) => file.floats::<16>(accessor, skin.joints.len())?,
         None => Vec::new(),
     };
     let joint = |(number, node): (usize, &Index<Node>)| {

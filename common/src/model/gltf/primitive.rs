@@ -43,9 +43,9 @@ impl File {
         };
         let positions = self.attribute(primitive, Semantic::Positions);
         let positions = positions.context("it has no positions")?;
+        let count = usize::try_from(self.count(positions)?)?;
         let mut positions: Vec<_> =
-            self.floats::<3>(positions)?.into_iter().map(Vec3::from).collect();
-        let count = positions.len();
+            self.floats::<3>(positions, count)?.into_iter().map(Vec3::from).collect();
         let mut normals = self.of_vertices::<3>(primitive, Semantic::Normals, count, features);
         pose.apply(self, primitive, &mut positions, &mut normals)?;
         let set = Semantic::TexCoords(coordinates.set);
@@ -60,7 +60,10 @@ impl File {
             });
         }
         let indices: Vec<u32> = match primitive.indices {
-            Some(indices) => self.integers::<1>(indices)?.into_iter().map(|[i]| i).collect(),
+            Some(indices) => {
+                let count = usize::try_from(self.count(indices)?)?;
+                self.integers::<1>(indices, count)?.into_iter().map(|[i]| i).collect()
+            }
             None => (0..count as u32).collect(),
         };
         let whole = triangles(mode, &indices);
@@ -124,10 +127,7 @@ impl File {
     ) -> Vec<[f32; N]> {
         let name = semantic.to_string();
         let Some(accessor) = self.attribute(primitive, semantic) else { return Vec::new() };
-        let values = self.floats::<N>(accessor).and_then(|values| {
-            ensure!(values.len() == count, "there are {} for {count} vertices", values.len());
-            Ok(values)
-        });
+        let values = self.floats::<N>(accessor, count);
         values.unwrap_or_else(|error| {
             features.note("attribute", 1, || format!("{name} is left out: {error}"));
             Vec::new()

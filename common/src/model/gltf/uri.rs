@@ -13,7 +13,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// What a URI leads to.
+/// The target of a URI.
 pub(super) enum Uri<'a> {
     /// Bytes within the URI.
     Data(Vec<u8>),

@@ -18,7 +18,7 @@ pub struct Texels<'a> {
     pub rgba: &'a [u8],
     /// True if RGB is sRGB encoded.
     pub srgb: bool,
-    /// How it is read between its texels and beyond its edges.
+    /// Filter, and continuation beyond the edges.
     pub sampling: Sampling,
 }
 
