@@ -160,7 +160,8 @@ void follow(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax) {
 // The next t at which a part is entered or left.
 float change_after(float t) {
     float next = NOWHERE;
-    for (uint i = 0; i < interval_count; i++) {
+    // Unrolled for every element of the array, this loop takes more registers than some GPUs have.
+    [[dont_unroll]] for (uint i = 0; i < interval_count; i++) {
         next = intervals[i].enter > t ? min(next, intervals[i].enter) : next;
         next = intervals[i].leave > t ? min(next, intervals[i].leave) : next;
     }
@@ -170,7 +171,7 @@ float change_after(float t) {
 // In which parts the ray is just before t, and just after.
 uint members_before(float t) {
     uint members = 0;
-    for (uint i = 0; i < interval_count; i++) {
+    [[dont_unroll]] for (uint i = 0; i < interval_count; i++) {
         members |= intervals[i].enter < t && t <= intervals[i].leave ? 1u << parts[i] : 0u;
     }
     return members;
@@ -178,7 +179,7 @@ uint members_before(float t) {
 
 uint members_after(float t) {
     uint members = 0;
-    for (uint i = 0; i < interval_count; i++) {
+    [[dont_unroll]] for (uint i = 0; i < interval_count; i++) {
         members |= intervals[i].enter <= t && t < intervals[i].leave ? 1u << parts[i] : 0u;
     }
     return members;
