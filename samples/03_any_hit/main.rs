@@ -14,7 +14,8 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, SceneOptions, Sun,
+    Camera, CameraBasis, DirectionalLight, Look, Scene, SceneAddresses, SceneOnGpu, SceneOptions,
+    Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 
@@ -71,7 +72,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut source = setup.scene_or(Scene::chess)?;
+        let mut source = setup.scene_with(&[Look::Holes], Scene::chess)?;
         // Less than opaque, so that the build leaves the pieces to the any-hit shader.
         for material in &mut source.model.materials {
             if ["white", "black"].contains(&material.name.as_str()) {

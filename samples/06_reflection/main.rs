@@ -12,7 +12,7 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, DirectionalLight, Look, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
@@ -70,7 +70,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let scene = setup.scene_or(Scene::chess_of_metal)?;
+        let scene = setup.scene_with(&[Look::Mirror], Scene::chess_of_metal)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let sun = Sun { azimuth: 340.0, elevation: 20.0, radiance: Vec3::new(4.4, 3.5, 2.4) };

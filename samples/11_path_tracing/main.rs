@@ -15,7 +15,8 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
+    Camera, CameraBasis, DiskLight, Light, Look, Scene, SceneAddresses, SceneOnGpu, Sun,
+    input_usage,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;
@@ -91,7 +92,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(scenes::chess)?;
+        let source = setup.scene_with(&[Look::Mirror], scenes::chess)?;
         let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source);
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;

@@ -16,7 +16,9 @@ use common::gpu::{
 };
 use common::scene::board::Board;
 use common::scene::plane::Plane;
-use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage};
+use common::scene::{
+    Camera, CameraBasis, Light, Look, Scene, SceneAddresses, SceneOnGpu, input_usage,
+};
 use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 use plane::{InfinitePlane, Inside};
@@ -90,7 +92,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut source = setup.scene_or(scenes::chess)?;
+        let mut source = setup.scene_with(&[Look::Mirror], scenes::chess)?;
         scenes::extend(&mut source.model);
         let Preset { scene, sun, lamp, lights, plane, board } =
             Preset::new(PresetName::Board, &source);

@@ -17,7 +17,7 @@ use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, DirectionalLight, Look, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::DVec3;
@@ -88,7 +88,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(behind_the_screen)?;
+        let source = setup.scene_with(&[Look::Holes], behind_the_screen)?;
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let (rule, way) = (Rule::Conservative, Way::Shader);

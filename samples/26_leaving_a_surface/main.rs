@@ -10,8 +10,8 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Moved, Placement, Scene, SceneAddresses, SceneOnGpu,
-    Size, Sun,
+    Camera, CameraBasis, DirectionalLight, Look, Moved, Placement, Scene, SceneAddresses,
+    SceneOnGpu, Size, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
@@ -72,7 +72,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(Scene::chess_of_metal)?;
+        let source = setup.scene_with(&[Look::Mirror], Scene::chess_of_metal)?;
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let sun = Sun { azimuth: 340.0, elevation: 20.0, radiance: Vec3::new(4.4, 3.5, 2.4) };

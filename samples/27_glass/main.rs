@@ -16,7 +16,7 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DiskLight, Light, PointLight, Scene, SceneAddresses, SceneOnGpu,
+    Camera, CameraBasis, DiskLight, Light, Look, PointLight, Scene, SceneAddresses, SceneOnGpu,
     input_usage,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
@@ -102,7 +102,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(scenes::chess)?;
+        let source = setup.scene_with(&[Look::Mirror, Look::Glass], scenes::chess)?;
         let Staged { scene, lamp, sky } = Staged::new(SceneName::Chess, &source);
         let on_gpu = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;

@@ -18,7 +18,7 @@ use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     TextureTable, barrier,
 };
-use common::scene::{Camera, CameraBasis, SceneAddresses, input_usage};
+use common::scene::{Camera, CameraBasis, Look, SceneAddresses, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use emitters::EmitterAddresses;
 use glam::UVec3;
@@ -99,7 +99,9 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let source = match setup.scene() {
-            Some(_) => Staged::from_file(setup.scene_or(|| unreachable!("there is a file"))?),
+            Some(_) => Staged::from_file(
+                setup.scene_with(&[Look::Mirror], || unreachable!("there is a file"))?,
+            ),
             None => scenes::chess()?,
         };
         let staged = Staged::new(SceneName::Chess, &source);

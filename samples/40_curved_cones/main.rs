@@ -14,7 +14,7 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOnGpu, SceneOptions, Sun,
+    Camera, CameraBasis, DirectionalLight, Look, SceneAddresses, SceneOnGpu, SceneOptions, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
@@ -65,7 +65,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let scene = setup.scene_or(mirrors::scene)?;
+        let scene = setup.scene_with(&[Look::Mirror], mirrors::scene)?;
         let camera = scene.camera;
         let options = SceneOptions { mipmaps: true, ..setup.options };
         let scene = SceneOnGpu::new(gpu, &scene, options)?;

@@ -14,7 +14,7 @@ use common::gpu::{
 use common::scene::board::Board;
 use common::scene::plane::{HalfSpace, Plane};
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Placement, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, DirectionalLight, Look, Placement, Scene, SceneAddresses, SceneOnGpu, Sun,
     input_usage,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
@@ -78,7 +78,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut scene = setup.scene_or(chess)?;
+        let mut scene = setup.scene_with(&[Look::Mirror], chess)?;
         scene.remove_board();
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;

@@ -8,7 +8,7 @@ use anyhow::Result;
 use super::Args;
 use crate::UsageError;
 use crate::model::text::shown;
-use crate::scene::{Scene, SceneOptions};
+use crate::scene::{Look, Scene, SceneOptions};
 use crate::{output, paths};
 
 /// The options a sample is created with.
@@ -37,6 +37,15 @@ impl Setup {
     /// # Errors
     /// If a file is missing or wrong; for a scene file of chapter 25, [`UsageError`].
     pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
+        self.scene_with(&[], own)
+    }
+
+    /// As [`Setup::scene_or`], for a chapter that shows these looks of a material. A file that needs another has a
+    /// warning.
+    ///
+    /// # Errors
+    /// As [`Setup::scene_or`].
+    pub fn scene_with(&self, looks: &[Look], own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
         let Some(path) = self.scene() else {
             return own().inspect(|scene| output::warn(&scene.model.warnings));
         };
@@ -58,6 +67,9 @@ impl Setup {
                 .warnings
                 .push(format!("{}: has lights; {lit} ({lights} in all)", shown(path)));
         }
+        let left_out = scene.looks_left_out(looks);
+        let left_out = left_out.iter().map(|what| format!("{}: {what}", shown(path)));
+        scene.model.warnings.extend(left_out);
         output::warn(&scene.model.warnings);
         Ok(scene)
     }

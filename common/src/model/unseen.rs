@@ -40,7 +40,7 @@ impl Places {
             };
             warnings.add_many(Kind::Glass, 1, || format!("{place}: {what}"));
         }
-        let is_glass = matches!(material.illumination, 4 | 6 | 7 | 9);
+        let is_glass = material.is_glass();
         if material.opacity == 0.0 {
             material.opacity = 1.0;
             if let Some(place) = opacity.filter(|_| !is_glass) {

@@ -35,6 +35,11 @@ impl Material {
         self.opacity < 1.0 || self.opacity_texture.is_some()
     }
 
+    /// True if light passes through the body or the sheet, as its illumination model says.
+    pub fn is_glass(&self) -> bool {
+        matches!(self.illumination, 4 | 6 | 7 | 9)
+    }
+
     /// True if the surface reflects its surroundings: the illumination model says so, and its reflectance is not 0.
     pub fn is_mirror(&self) -> bool {
         self.illumination >= 3 && self.specular.max_element() > 0.0
