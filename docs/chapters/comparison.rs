@@ -15,7 +15,7 @@ const FILE: Style = AnsiColor::Cyan.on_default().effects(Effects::BOLD);
 const FAINT: Style = Style::new().effects(Effects::DIMMED);
 const OLD: Style = AnsiColor::Red.on_default();
 const NEW: Style = AnsiColor::Green.on_default();
-/// A line that has only moved within the chapter.
+/// A line the other chapter has in another place.
 const MOVED: Style = AnsiColor::Blue.on_default();
 /// A word that changed within a line that did not change as a whole.
 const OLD_WORD: Style = AnsiColor::Red.on_default().effects(Effects::BOLD.insert(Effects::INVERT));

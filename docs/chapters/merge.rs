@@ -43,8 +43,8 @@ pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<S
     Ok(format!("{}: {} samples, {samples}{gaps}\n", out.display(), samples.count()))
 }
 
-/// If the output name is forgotten, the first part becomes the output; this detects it by the samples it
-/// contains.
+/// If the output name is forgotten, the first part becomes the output. Without this check, its samples would
+/// be lost without a message.
 fn refuse_to_lose(out: &Path, files: &[PathBuf]) -> Result<()> {
     let same = |file: &PathBuf| match (file.canonicalize(), out.canonicalize()) {
         (Ok(file), Ok(out)) => file == out,

@@ -54,9 +54,9 @@ impl Mismatch {
 }
 
 impl Expectation {
-    /// Checks a run against an expectation, and returns the mismatch if there is one. `other` is the picture
-    /// to compare with; `near`, called only when needed, returns the tolerance for equal pictures, or `None`
-    /// for bitwise equality.
+    /// Checks a run against the expectation, and describes the mismatch if there is one. `other` is the
+    /// picture to compare with; `near`, called only when needed, returns the tolerance for equal pictures, or
+    /// `None` for bitwise equality.
     ///
     /// # Errors
     /// If a picture is missing, or the sizes differ.
@@ -174,7 +174,7 @@ impl Expectation {
         }
     }
 
-    /// Checks the result of tests, and returns the mismatch if there is one.
+    /// Checks the result of tests, and describes the mismatch if there is one.
     pub fn missed_by_tests(&self, tested: &Tested) -> Option<String> {
         match self {
             Self::Passes => (tested.failed > 0).then(|| format!("{} tests fail", tested.failed)),
