@@ -1,4 +1,4 @@
-//! The functions that may fail, how often each was called, and the one call that does.
+//! The functions that may fail, the number of calls of each, and the single call that fails.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_char, c_void};
@@ -8,11 +8,11 @@ use std::sync::{Mutex, OnceLock};
 
 use ash::vk;
 
-/// A function that returns a `VkResult`, with the layer's function in its place.
+/// A function that returns a `VkResult`, and the layer's replacement.
 pub struct Function {
     /// Its name.
     pub name: &'static CStr,
-    /// The handle that the layer gives out for it.
+    /// The address that the layer returns for it.
     pub own: *const c_void,
     below: AtomicUsize,
     calls: AtomicUsize,
@@ -23,8 +23,8 @@ unsafe impl Sync for Function {}
 
 /// Declares [`FUNCTIONS`]: each name with its number of arguments, spelled out as letters.
 ///
-/// Arguments are passed on as they came, each as a machine word: handles, pointers, numbers and flags are
-/// no larger, and the calling conventions of the 64-bit systems pass them all alike.
+/// Arguments are passed on unchanged, each as a machine word: handles, pointers, numbers and flags are no
+/// larger, and the calling conventions of 64-bit systems pass them all in the same way.
 macro_rules! functions {
     ($($name:ident($($argument:ident)*))*) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "the functions' own names")]
