@@ -5,8 +5,7 @@
 //!   `vkMapMemory:1:0` succeeds, and gives `MAP_FAILED`, as a driver may where address space is short.
 //! - `FAIL=vkCmdCopyImageToBuffer`: each such copy is made twice, with nothing between.
 //! - `CALLS=FILE`: when the instance is destroyed, one line per function that may fail and was called is
-//! written to
-//!   the file: its name, and the number of calls.
+//!   written to the file: its name, and the number of calls.
 //!
 //! Functions that cannot fail, and those that need no instance, are not counted.
 

@@ -14,18 +14,15 @@
 //! - `out-of-date`: the first swapchain is out of date before it is made.
 //! - `without=FEATURE`: that feature is missing too.
 //! - `no-ray-tracing`: every ray tracing extension is hidden, with its features and limits; a buffer for it
-//! is
-//!   refused, and a barrier that names its stages ends the process.
+//!   is refused, and a barrier that names its stages ends the process.
 //! - `queries`: the device also supports ray queries and position fetch, and every compute shader may trace
-//! rays
-//!   and read the result of drawing.
+//!   rays and read the result of drawing.
 //! - `portability`: the device supports `VK_KHR_portability_subset`, as on Macs, here without any of its
-//! features.
+//!   features.
 //! - `bar`: the host can also map device memory, as with a resizable BAR.
 //! - `rays=NUMBER`: one trace has at most this many rays, fewer than Vulkan allows a device to report.
 //! - `tell=FILE`: when the device is destroyed, four numbers are written to the file: the submissions, and
-//! the
-//!   allocations in device memory, in host memory, and in mapped device memory.
+//!   the allocations in device memory, in host memory, and in mapped device memory.
 //!
 //! Commands are only ordered by barriers: a command that uses the result of an earlier one, without a
 //! suitable barrier between them, ends the process.

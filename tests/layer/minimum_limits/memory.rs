@@ -21,7 +21,7 @@ const BOTH: u32 = 2;
 /// The size of each heap, unless the variable sets it. The specification promises no size.
 const HEAP: u64 = 1 << 30;
 
-/// The allocations, with type and size.
+/// The allocations that count against the device's heap, with type and size.
 static ALLOCATED: Mutex<BTreeMap<u64, (u32, u64)>> = Mutex::new(BTreeMap::new());
 /// The number of allocations of each type.
 static COUNTS: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
