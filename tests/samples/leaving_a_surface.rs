@@ -30,7 +30,7 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     same_answers("with and without shadow rays", NAME, &off, &on.picture());
 }
 
-/// The cameras for the tests of rays, from above and from low down.
+/// The camera for most tests of rays, looking down from above.
 const HIGH: [&str; 3] =
     ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
 
