@@ -346,7 +346,7 @@ fn figures_start_compute_and_are_dragged_in_firefox_too() {
 #[test]
 #[ignore = "nightly only: a minute"]
 fn what_these_tests_find_in_chromium_holds_in_firefox() {
-    // Tests of the book's build, the one in which a finger scrolls the page, and those run by hand.
+    // Skipped: tests of the book's build, the one in which a finger scrolls the page, and those run by hand.
     let skipped =
         ["firefox", "a_line_that", "a_changed_line", "beside_a_point", "stills", "pictures"];
     let mut arguments =

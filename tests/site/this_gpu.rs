@@ -252,7 +252,7 @@ fn without_keep_nothing_is_left_of_it_but_its_name() {
     assert_eq!(without.matches("{ return a; }").count(), 4);
     let kept = "uintBitsToFloat(floatBitsToUint(a) ^ kept)";
     assert_eq!(without, with.replace(kept, "a"));
-    // The displayed source is what runs: if `kept` is not 0, only one of them is affected.
+    // The source passed to the browser is what runs: if `kept` is not 0, only one of them is affected.
     let disturbed = browser.run(
         "(() => {
             const compute = name => {

@@ -245,8 +245,8 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     wait("the error", || tells_error(&desk).then_some(()));
     assert!(same(&desk.picture().0, &first), "the last good picture stays");
 
-    // Input that crashes or confuses a compiler's bindings: a zero byte, a desktop version, and an overflow
-    // of the compiler's stack.
+    // Input that makes the compiler's bindings panic: a zero byte, and a version of desktop GLSL. And a sum
+    // that overflows the compiler's stack.
     let terms = " + x * y".repeat(100_000);
     let sum = format!("float much(float x) {{ float y = 0.0; y += x{terms}; return y; }}");
     let version = good.replace("#version 460", "#version 110");

@@ -34,7 +34,7 @@ impl fmt::Display for Other {
 /// A condition on a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
-    /// The picture is the solution's, but for some pixels: `None` for one of a thousand.
+    /// The picture is the solution's, except for this many pixels; `None` for one in a thousand.
     AsSolution(Option<usize>),
     /// The mean difference of the pictures over all channels in sRGB, of 1.
     DiffersBy(Interval, Other),

@@ -37,7 +37,7 @@ const AFTER: &[(&str, &str)] = &[
     ("glossary.md", "Glossary"),
 ];
 
-/// Returns whether a page of the book is no chapter's.
+/// Returns whether a page of the book belongs to no chapter.
 pub fn is_other_page(file: &str) -> bool {
     BEFORE.iter().chain(AFTER).any(|(name, _)| file == *name)
 }

@@ -40,7 +40,7 @@ impl Ended {
         self.said.trim().replace('\n', " ")
     }
 
-    /// What was wrong with its arguments, in one line, if it exited with code 2.
+    /// The error in its arguments, in one line, if it exited with code 2.
     pub fn refused(&self) -> Option<String> {
         let code = self.status.and_then(|status| status.code());
         self.failed().filter(|_| code == Some(2))

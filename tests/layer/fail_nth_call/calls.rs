@@ -168,7 +168,7 @@ struct Fault {
 enum When {
     /// The call with this number.
     At(usize),
-    /// That call and all after it.
+    /// The call with this number, and all after it.
     From(usize),
     /// The first call after this file exists; the file is removed.
     File(PathBuf),
