@@ -194,7 +194,7 @@ fn limit(text: &str) -> Result<u64, String> {
     known.ok_or_else(|| "a limit is a whole number of seconds from 1 to 86400, a day".to_owned())
 }
 
-/// The project that this tool belongs to, by a path without `..`: errors show it.
+/// The project that this tool belongs to, as a path without `..`, because error messages print it.
 fn own_project() -> PathBuf {
     let tool = Path::new(env!("CARGO_MANIFEST_DIR"));
     tool.ancestors().nth(2).unwrap_or(tool).to_owned()
@@ -203,15 +203,15 @@ fn own_project() -> PathBuf {
 /// Reads the arguments.
 ///
 /// # Errors
-/// The fault of the arguments, in one line.
+/// A one-line description of what is wrong with the arguments.
 pub fn parse() -> Result<Arguments> {
     Arguments::try_parse().map_err(|error| {
         if !error.use_stderr() {
             common::output::print_and_exit(&error.to_string());
         }
         let text = error.to_string();
-        // Without a command clap's error is the help, in which no line says what is missing.
-        // What is required is listed in lines of its own below it.
+        // Without a command, clap's error is the help text, which does not say what is missing. Missing
+        // arguments are listed on lines of their own below the error.
         let mut lines = text.lines().skip_while(|line| !line.starts_with("error: "));
         let first = lines.next().map(|line| line.trim_start_matches("error: ").to_owned());
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);

@@ -1,4 +1,4 @@
-//! `cargo chapters list`: a line a chapter, part by part.
+//! `cargo chapters list`: one line per chapter, grouped by part.
 
 use anyhow::Result;
 use manuscript::project::{Chapter, Project};
@@ -6,7 +6,7 @@ use manuscript::project::{Chapter, Project};
 /// The list, or the same as JSON.
 ///
 /// # Errors
-/// None that is known: everything in it can be written as JSON.
+/// No known errors: everything in the list can be written as JSON.
 pub fn list(project: &Project, json: bool) -> Result<String> {
     if json {
         return Ok(serde_json::to_string_pretty(&project.chapters)? + "\n");
@@ -17,7 +17,7 @@ pub fn list(project: &Project, json: bool) -> Result<String> {
     let (names, titles) = (width(|chapter| &chapter.name), width(|chapter| &chapter.title));
     let line = |chapter: &Chapter| {
         let Chapter { name, title, teaches, from, needs, .. } = chapter;
-        // As `diff` takes it: a number is enough.
+        // In the form `diff` accepts: the number is enough.
         let from = from.as_deref().and_then(|from| from.split('_').next()).unwrap_or("–");
         let needs = match &needs[..] {
             [] => String::new(),

@@ -1,4 +1,4 @@
-//! A comparison of two chapters, for a terminal: coloured where one looks, plain where it is piped.
+//! A comparison of two chapters for a terminal, coloured unless it is piped.
 
 use std::fmt::Write as _;
 use std::io::{ErrorKind, Write as _};
@@ -15,30 +15,30 @@ const FILE: Style = AnsiColor::Cyan.on_default().effects(Effects::BOLD);
 const FAINT: Style = Style::new().effects(Effects::DIMMED);
 const OLD: Style = AnsiColor::Red.on_default();
 const NEW: Style = AnsiColor::Green.on_default();
-/// A line that only stands elsewhere in the other chapter.
+/// A line the other chapter has in another place.
 const MOVED: Style = AnsiColor::Blue.on_default();
 /// A word that changed within a line that did not change as a whole.
 const OLD_WORD: Style = AnsiColor::Red.on_default().effects(Effects::BOLD.insert(Effects::INVERT));
 const NEW_WORD: Style =
     AnsiColor::Green.on_default().effects(Effects::BOLD.insert(Effects::INVERT));
 
-/// Below this share of equal text, two lines are two lines and not one that changed.
+/// Two lines that share less text than this count as different lines, not as one changed line.
 const ALIKE: f64 = 0.5;
 
 fn paint(style: Style, text: &str) -> String {
     format!("{style}{text}{style:#}")
 }
 
-/// A word that counts as the same on both sides: a chapter's name.
+/// Names that count as equal on both sides: those of the two chapters.
 type Names<'a> = [&'a str; 2];
 
-/// Prints to standard output, without colours where nobody would see them.
+/// Prints to standard output, in colour only on a terminal.
 ///
 /// # Errors
-/// If it cannot be written; a reader that has closed it has seen enough.
+/// If writing fails. A closed pipe is not an error.
 pub fn print(text: &str) -> Result<()> {
     match anstream::stdout().write_all(text.as_bytes()) {
-        // A reader that has seen enough, as `head` has.
+        // A reader such as `head` may close the pipe early.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result.context("cannot write to standard output"),
     }
@@ -50,7 +50,7 @@ pub fn heading(old: &Chapter, new: &Chapter) -> String {
     format!("{}\n{}: {}\n", paint(TITLE, &title), new.title, new.teaches)
 }
 
-/// The number of files a reader is sent to first.
+/// The number of files to recommend first.
 const FIRST: usize = 3;
 
 /// The files to begin with, if there are many: the program, then those with the most new lines.
@@ -151,7 +151,7 @@ fn place(diff: &FileDiff, group: &[DiffOp]) -> String {
     around.map_or(format!("line {number}"), |around| format!("line {number}, in {around}"))
 }
 
-/// The last line that opens a block around a line: nothing between them stands further to the left.
+/// The last line above that opens a block around the given line: no line between them is indented less.
 fn enclosing<'a>(before: &'a [Line], line: Option<&Line>) -> Option<&'a Line> {
     let indent = |line: &Line| line.text.len() - line.text.trim_start().len();
     let mut depth = line.map_or(0, indent);
@@ -210,12 +210,12 @@ fn by_word(old: &[Line], new: &[Line], names: Names) -> (Vec<String>, Vec<String
     let all = (weight(&old_words) + weight(&new_words)) as f64;
     let alike = 2.0 * equal as f64 >= ALIKE * all && equal > 0;
     let painted = |words: &[Word], lines: usize, ranges: Vec<Range<usize>>, styles: [Style; 2]| {
-        // Neighbours of one style are one piece, so that the output stays readable raw, too.
+        // Neighbours of the same style are merged, so that the output stays readable without a terminal.
         let mut pieces: Vec<Vec<(Style, String)>> = vec![Vec::new(); lines];
         for (op, range) in ops.iter().zip(ranges) {
             let changed = alike && !matches!(op, DiffOp::Equal { .. });
             for word in &words[range] {
-                // A painted blank at the beginning of a line is a block of colour that says nothing.
+                // A coloured blank at the start of a line would only be noise.
                 let stands_out = changed && !word.text.trim().is_empty();
                 let style = styles[usize::from(stands_out)];
                 match pieces[word.line].last_mut() {

@@ -1,6 +1,7 @@
-//! `cargo chapters hard`: hard cases and random rays through the textbook's formulas and ours, on this device.
+//! `cargo chapters hard`: runs hard cases and random rays through the textbook's formulas and ours on this
+//! device.
 //!
-//! Chapter 24 computes and judges; this command draws a seed, runs it twice and prints a digest.
+//! Chapter 24 computes and checks; this command draws a seed, runs it twice and prints a summary.
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::path::Path;
@@ -21,11 +22,11 @@ use crate::programs::child;
 use crate::programs::program::Programs;
 use crate::programs::ready;
 
-/// The laboratory, and its hard cases.
+/// The chapter that measures accuracy, and its hard cases.
 const LABORATORY: &str = "24_accuracy";
 const CASES: &str = "tests/data/hard_cases.json";
 
-/// Each primitive, the rung that textbooks have, and the one that must always be right.
+/// Each primitive, its textbook rung, and the rung that must always be right.
 const RUNGS: [(&str, &str, &str); 9] = [
     ("sphere", "S0", "S4"),
     ("box", "B0", "B3"),
@@ -40,8 +41,8 @@ const RUNGS: [(&str, &str, &str); 9] = [
 
 /// The primitive whose sums are not random.
 const SUMS: &str = "accumulation";
-/// The primitive of rays that leave a surface: what counts is what they meet, and the way there may be as short as
-/// the step that they start with.
+/// The primitive of rays that leave a surface. Only the object they hit matters, and it may be as close as
+/// the initial step.
 const LEAVING: &str = "secondary origin";
 
 /// The arguments of `cargo chapters hard`.
@@ -71,7 +72,7 @@ fn rays(text: &str) -> Result<u32, String> {
     known.ok_or_else(|| "rays are a whole number from 1 to 100000".to_owned())
 }
 
-/// The answers of 24 to the hard cases.
+/// The results of 24 on the hard cases.
 #[derive(Deserialize)]
 struct HardCases {
     device: String,
@@ -91,7 +92,7 @@ struct HardRung {
     worst_ulp: f64,
 }
 
-/// Its answers to random rays.
+/// The results of 24 on random rays.
 #[derive(Deserialize)]
 struct RandomRays {
     rungs: Vec<RandomRung>,
@@ -165,7 +166,7 @@ impl HardArguments {
         Ok(command)
     }
 
-    /// The hard cases. A wrong top rung makes 24 fail, but it has written its answers before.
+    /// The hard cases. If a top rung is wrong, 24 fails, but only after writing its results.
     fn cases(&self, programs: &Programs, folder: &Path) -> Result<HardCases> {
         let file = folder.join("cases.json");
         let mut command = self.command(programs)?;
@@ -183,7 +184,7 @@ impl HardArguments {
     }
 }
 
-/// Runs 24 and reads what it has written; its own error, if that is nothing.
+/// Runs 24 and reads its results; if there are none, returns its own error.
 fn run<Answers: DeserializeOwned>(
     command: &mut Command,
     file: &Path,
@@ -200,7 +201,7 @@ fn run<Answers: DeserializeOwned>(
     serde_json::from_str(&text).with_context(|| format!("{what}: its report"))
 }
 
-/// A seed that nobody chose.
+/// A random seed.
 fn fresh() -> u32 {
     (RandomState::new().build_hasher().finish() as u32).max(1)
 }
@@ -264,7 +265,7 @@ fn sum(family: &str, rows: &[Row]) -> Row {
     }
 }
 
-/// Everything that the command prints.
+/// The command's whole output.
 fn page(cases: &HardCases, rows: &[Vec<Row>; 2], seed: u32) -> String {
     let [hard, random] = rows.each_ref().map(|rows| rows.iter().map(|row| row.rays).sum::<u64>());
     let names = |pick: fn(&(&'static str, &'static str, &'static str)) -> &'static str| {
@@ -305,7 +306,7 @@ fn table(what: &str, rows: &[Row]) -> String {
     columns(&lines, &[1, 2, 3, 4])
 }
 
-/// Digits by the thousand.
+/// A number with commas between thousands.
 fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let place = |at: usize| at > 0 && (digits.len() - at).is_multiple_of(3);
@@ -313,7 +314,7 @@ fn grouped(number: u64) -> String {
     letters.flat_map(|(at, digit)| place(at).then_some(',').into_iter().chain([digit])).collect()
 }
 
-/// Fails if ours was wrong, or never asked.
+/// Fails if ours was wrong or never tested.
 fn verdict(cases: &HardCases, rows: &[Vec<Row>; 2], seed: u32) -> Result<()> {
     let all = || rows.iter().flatten();
     if let Some(failure) = cases.failures.first() {
@@ -335,7 +336,7 @@ mod tests {
 
     use super::*;
 
-    /// Answers in which the textbook is wrong in 3 cases, and ours in `wrong`; without ours if that is `None`.
+    /// Results with 3 wrong cases for the textbook and `wrong` for ours; without ours if that is `None`.
     fn cases(wrong: Option<u64>) -> HardCases {
         let row = |primitive: &str, rung: &str, wrong: Option<u64>| {
             json!({

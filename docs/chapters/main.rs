@@ -70,7 +70,7 @@ use survey::command::Survey;
 
 fn main() -> ExitCode {
     common::exit::exit_code(|| {
-        // Whoever asks for a chapter that is not there has given a wrong argument.
+        // An unknown chapter is an error in the arguments.
         run(&parse()?).map_err(|error| match error.downcast() {
             Ok(Unknown(line)) => UsageError(line).into(),
             Err(error) => error,
@@ -85,7 +85,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::List { json } => print(&chapter_list::list(&project, *json)?),
         Command::Diff { old, new, stat, code, shaders, page, context } => {
             let (mut old, mut new) = (project.chapter(old)?, project.chapter(new)?);
-            // What a chapter adds is read from its parent on, whichever is named first.
+            // A chapter's changes are shown relative to its parent, whichever is named first.
             if project.descends(old, new) {
                 (old, new) = (new, old);
             }
@@ -147,9 +147,9 @@ fn run(arguments: &Arguments) -> Result<()> {
     }
 }
 
-/// Runs the program that makes the website: mdBook is compiled for it alone.
+/// Runs the program that makes the website, which alone depends on mdBook.
 fn site(project: &Project, out: Option<&Path>) -> Result<()> {
-    // Here, where the reader is: what `--out` names lies below.
+    // In the current folder, because `--out` is relative to it.
     let mut cargo = child::cargo(Path::new("."));
     cargo.args(["run", "--quiet", "--package", "site", "--manifest-path"]);
     cargo.arg(project.root.join("Cargo.toml")).arg("--").arg("--root").arg(&project.root);
@@ -157,7 +157,7 @@ fn site(project: &Project, out: Option<&Path>) -> Result<()> {
         cargo.arg("--out").arg(out);
     }
     let status = child::show(&mut cargo)?;
-    // It has said itself what is wrong.
+    // It has printed its own error.
     if status.success() { Ok(()) } else { process::exit(status.code().unwrap_or(1)) }
 }
 
@@ -191,7 +191,7 @@ fn measure(project: &Project, names: &[String]) -> Result<()> {
     report(&faults)
 }
 
-/// Prints what is wrong; an error if anything is.
+/// Prints the faults; returns an error if there are any.
 fn report(faults: &[Fault]) -> Result<()> {
     print(&faults.iter().map(|fault| format!("{fault}\n")).collect::<String>())?;
     match faults.len() {

@@ -1,4 +1,4 @@
-//! Files of sums that `--save` has written, merged: into one file, or into the picture.
+//! Merges files of sums written by `--save` into one file, or into the picture.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -10,12 +10,12 @@ use common::files::check_writable;
 use common::output;
 use instruments::sums::{check_complete, merge};
 
-/// Merges `files` and writes a picture if `out` is named as one, else a file of sums; returns the line that
-/// tells what it has.
+/// Merges `files`. Writes a picture if `out` has a picture's extension, else a file of sums; returns a line
+/// that describes the result.
 ///
 /// # Errors
-/// If the files do not fit together, have samples in common, or lack some of `whole`; if `out` cannot be
-/// written, or is a file of sums that is not among them: its samples would be lost.
+/// If the files do not match, share samples, or lack some of `whole`; if `out` cannot be written, or is an
+/// existing file of sums that is not among the inputs, because its samples would be lost.
 pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<String> {
     check_writable(out)?;
     if Format::of(out).is_err() && out.extension().is_none_or(|it| it != "sums") {
@@ -43,7 +43,8 @@ pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<S
     Ok(format!("{}: {} samples, {samples}{gaps}\n", out.display(), samples.count()))
 }
 
-/// A name that is left out makes the first part the output: nothing but its samples would tell.
+/// If the output name is forgotten, the first part becomes the output. Without this check, its samples would
+/// be lost without a message.
 fn refuse_to_lose(out: &Path, files: &[PathBuf]) -> Result<()> {
     let same = |file: &PathBuf| match (file.canonicalize(), out.canonicalize()) {
         (Ok(file), Ok(out)) => file == out,

@@ -1,4 +1,4 @@
-//! A new chapter: a copy of its parent that compiles, runs and is tested, ready to be changed.
+//! Makes a new chapter: a copy of its parent that compiles, runs and is tested.
 
 use std::path::PathBuf;
 
@@ -10,10 +10,10 @@ use manuscript::shader;
 
 use crate::pages::placeholder::{OPENING, TEACHES};
 
-/// Letters of a name at most: it heads columns and names files.
+/// The longest name, in letters: it heads columns and names files.
 const NAME_LETTERS: usize = 40;
 
-/// A chapter that is to be made.
+/// A chapter to be made.
 pub struct NewChapter<'a> {
     project: &'a Project,
     from: &'a Chapter,
@@ -24,7 +24,7 @@ impl<'a> NewChapter<'a> {
     /// A chapter with this number and name, a copy of `from`.
     ///
     /// # Errors
-    /// If number or name are none, taken, or the parent is a package of its own.
+    /// If the number or name is invalid or taken, or the parent has a package of its own.
     pub fn plan(
         project: &'a Project,
         number: u32,
@@ -128,7 +128,7 @@ impl<'a> NewChapter<'a> {
         files.into_iter().map(copy).collect()
     }
 
-    /// A program with an opening of its own.
+    /// The program with a new opening comment.
     fn opened(&self, text: &str) -> String {
         let rest = text.lines().skip_while(|line| line.starts_with("//!"));
         let rest: String = rest.flat_map(|line| [line, "\n"]).collect();
@@ -137,7 +137,7 @@ impl<'a> NewChapter<'a> {
         format!("//! {heading}: {teaches}\n//!\n//! New since {from}: {new}\n{rest}")
     }
 
-    /// The parent's own shaders; what it shares with others, the new chapter shares too.
+    /// The parent's own shaders. Shaders the parent shares with others are shared by the new chapter as well.
     fn shaders(&self) -> Result<Vec<(String, String)>> {
         let own = shader::own(self.project, self.from).into_iter();
         own.map(|path| Ok((self.own(&path), self.project.read(&path)?))).collect()
@@ -157,7 +157,7 @@ impl<'a> NewChapter<'a> {
             "[package.metadata.chapters.{name}]\ntitle = \"{title}\"\nteaches = \"{teaches}\"\n{part}\
              from = \"{from}\"\nneeds = [{needs}]\n\n"
         );
-        // Each stands before the first chapter with a larger number, else after the last.
+        // Each entry goes before the first chapter with a larger number, or at the end.
         let manifest = &self.project.manifest;
         let later: Vec<&Chapter> =
             self.project.chapters.iter().filter(|other| other.name > *name).collect();
@@ -206,7 +206,7 @@ impl<'a> NewChapter<'a> {
         )
     }
 
-    /// A first exercise, which holds until the chapter does what its parent does not.
+    /// A first exercise, valid until the chapter differs from its parent.
     fn exercise(&self) -> String {
         let from = &self.from.name;
         format!(
@@ -216,7 +216,7 @@ impl<'a> NewChapter<'a> {
         )
     }
 
-    /// A page with every section; what is still to be written, `check` names.
+    /// A page with every section; `check` reports the placeholders.
     fn page(&self) -> String {
         let Chapter { name, .. } = &self.chapter;
         let (heading, from) = (self.chapter.heading(), &self.from.name);

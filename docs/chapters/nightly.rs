@@ -1,11 +1,12 @@
-//! `chapters nightly`: the tests that plain `cargo test` leaves out, one test program after the other, each with its
-//! time, and then `chapters verify`.
+//! `chapters nightly`: runs the tests that plain `cargo test` leaves out, one test program after the other,
+//! each with its time, and then `chapters verify`.
 //!
-//! The reason why a test is left out says how it is run, by its first words:
+//! The first words of an ignored test's reason say how it is run:
 //!
-//! - `nightly: WHY; quick: NAME`: here. The test NAME is quick and finds the same fault where it is simple.
-//! - `nightly only: WHY`: here, and nothing quick would find its fault.
-//! - `by hand: WHY`: it measures, draws, or asks to be told what to do.
+//! - `nightly: WHY; quick: NAME`: by this command. The test NAME is quick and finds the same fault in a
+//! simple case.
+//! - `nightly only: WHY`: by this command; no quick test would find its fault.
+//! - `by hand: WHY`: it measures, draws, or needs arguments.
 //! - `run by NAME`: by another test.
 
 use std::path::Path;
@@ -84,7 +85,7 @@ impl Group {
         self.tests.iter().map(line).collect()
     }
 
-    /// Runs its tests, which print as they go, and tells how long they took; whether all passed.
+    /// Runs the group's tests, which print as they go, and prints their time; returns whether all passed.
     fn pass(&self, root: &Path) -> Result<bool> {
         let mut cargo = child::cargo(root);
         cargo.args(["test", "--test", &self.program, "--"]);
@@ -98,7 +99,7 @@ impl Group {
     }
 }
 
-/// Tests that are left out without saying how they are run, or for a quick one that is not there.
+/// The faults of ignored tests that do not say how they are run, or name a quick test that does not exist.
 pub fn check(project: &Project) -> Vec<Fault> {
     let mut faults = Vec::new();
     for target in &project.tests {

@@ -1,4 +1,4 @@
-//! A program of one's own: a crate outside the workspace that builds, runs and is tested, ready to be changed.
+//! Makes a reader's own program: a crate outside the workspace that builds, runs and is tested.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,35 +11,35 @@ use manuscript::project::Project;
 use crate::programs::own_program::{NAME, TEMPLATE};
 use crate::programs::program::Programs;
 
-/// The lines that make the template a member: a crate of its own has other such files.
+/// The files that make the template a member of the workspace; a separate crate has its own.
 const OF_THE_MEMBER: [&str; 2] = ["Cargo.toml", "tests.rs"];
 
 /// Cargo's settings for a folder and those below it.
 const CONFIG: &str = ".cargo/config.toml";
 
-/// Names that Rust or Cargo keeps, and that of the framework.
+/// Names reserved by Rust or Cargo, and that of the framework.
 const TAKEN: &str = "abstract alloc as async await become box break build const continue core crate deps do \
      dyn else enum examples extern false final fn for gen if impl in incremental let loop macro match mod move mut \
      override priv proc_macro pub raybook ref return self static std struct super test trait true try type typeof \
      unsafe unsized use virtual where while yield";
 
-/// A crate that is to be made.
+/// A crate to be made.
 pub struct Start<'a> {
     project: &'a Project,
     folder: PathBuf,
     name: String,
-    /// The source of the framework: a Git repository, else this checkout.
+    /// The source of the framework: a Git repository, or else this checkout.
     git: Option<&'a str>,
-    /// The folder in which the book is built, if the crate shares what lies there.
+    /// The folder of the book's build, if the crate shares it.
     shared: Option<PathBuf>,
 }
 
 impl<'a> Start<'a> {
-    /// A crate in a folder that is empty or new, with the folder's name. Unless it is to be `apart`, it shares what is
-    /// built of this checkout.
+    /// A crate in an empty or new folder, with the folder's name. Unless it is to be `apart`, it shares the
+    /// build of this checkout.
     ///
     /// # Errors
-    /// If the folder is in use or lies in the project, or its name is none for a crate.
+    /// If the folder is in use or inside the project, or its name is not valid for a crate.
     pub fn plan(
         programs: &Programs<'a>,
         folder: &Path,
@@ -69,7 +69,7 @@ impl<'a> Start<'a> {
         if absolute.exists() && !absolute.is_dir() {
             return refuse("is no folder; name one that is empty or new");
         }
-        // Cargo keeps records of what it has compiled. What comes from a Git repository may be another version.
+        // Cargo keeps records of its results. A Git repository may have another version.
         let target = programs.target();
         let shared = !apart
             && git.is_none()
@@ -78,14 +78,14 @@ impl<'a> Start<'a> {
         Ok(Self { project, folder: absolute, name: name.to_owned(), git, shared })
     }
 
-    /// Writes the crate's files, all or none; returns their paths below its folder.
+    /// Writes the crate's files, all or none; returns their paths relative to its folder.
     ///
     /// # Errors
     /// If a file cannot be read or written.
     pub fn write(&self) -> Result<Vec<String>> {
         let own = |text: &str| text.replace(NAME, &self.name);
         let mut files = vec![
-            // Its settings name folders of this machine.
+            // Its settings contain folders of this machine.
             (".gitignore".to_owned(), "/target\n/.cargo\n".to_owned()),
             ("Cargo.lock".to_owned(), self.project.read("Cargo.lock")?),
             ("Cargo.toml".to_owned(), self.manifest()?),
@@ -129,7 +129,7 @@ impl<'a> Start<'a> {
             None => true,
         };
         let mut profile: Vec<&str> = profile.filter(fits).collect();
-        // A comment above the first [[bin]] is about that.
+        // A comment above the first [[bin]] belongs to it.
         while profile.pop_if(|last| last.is_empty() || last.starts_with('#')).is_some() {}
         Ok(format!(
             "[package]\nname = \"{}\"\nversion = \"0.1.0\"\nedition = {}\nrust-version = {}\npublish = false\n\n\
@@ -143,8 +143,8 @@ impl<'a> Start<'a> {
         ))
     }
 
-    /// Cargo's settings: where it finds what the book has compiled, and the book's own compiler of C++, by which it
-    /// would otherwise compile glslang again.
+    /// Cargo's settings: the folder of the book's build, and the book's C++ compiler, without which glslang
+    /// would be compiled again.
     fn config(&self, shared: &Path) -> Result<String> {
         let path = |path: &Path| toml::Value::from(plain(path)).to_string();
         let mut text = format!(
@@ -202,12 +202,12 @@ impl<'a> Start<'a> {
     }
 }
 
-/// A path in words that Cargo knows: of Windows' longest form it knows nothing.
+/// A path in the form that Cargo understands, not Windows' longest one.
 fn plain(path: &Path) -> String {
     path.display().to_string().trim_start_matches(r"\\?\").to_owned()
 }
 
-/// The project's folder as the system knows it.
+/// The project's folder in canonical form.
 fn root(project: &Project) -> PathBuf {
     project.root.canonicalize().unwrap_or_else(|_| project.root.clone())
 }

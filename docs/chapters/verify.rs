@@ -1,4 +1,4 @@
-//! `chapters verify`: runs the book's commands again, and compares what they give with what is stored.
+//! `chapters verify`: runs the book's commands again, and compares the results with the stored ones.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -27,14 +27,14 @@ use crate::values::measurement::{self, Measurement};
 use crate::values::record::{Record, Records, renew};
 use crate::values::{budget, given};
 
-/// The most edited chapters whose pictures a quick run compares.
+/// The largest number of edited chapters whose pictures a quick run compares.
 const FEW: usize = 6;
 
-/// The largest error of a channel on the driver that made a picture, of 255: a software driver compiles for the
-/// processor that it finds, and two of these round a filtered colour differently.
+/// The largest error of a channel on the driver that made a picture, of 255: a software driver compiles for
+/// the present processor, and two processors may round a filtered colour differently.
 const STEP: u8 = 1;
 
-/// One thing that a command gave.
+/// One result of a command.
 enum Item<'a> {
     Picture(&'a Picture),
     Mistake(&'a Mistake),
@@ -46,13 +46,13 @@ enum Item<'a> {
 /// The outcome of comparing one item.
 #[derive(Default)]
 struct Verdict {
-    /// The differences, each a line with its remedy.
+    /// The differences, each as a line with its remedy.
     differences: Vec<String>,
-    /// The things that could not be compared here.
+    /// The items that could not be compared here.
     notes: Vec<String>,
 }
 
-/// Compares the items of these names, or all; with `changed`, the pictures of edited chapters alone.
+/// Compares the items of these names, or all; with `changed`, only the pictures of edited chapters.
 ///
 /// # Errors
 /// If a name is unknown, or anything differs.
@@ -124,7 +124,7 @@ pub fn run(book: &Book, names: &[String], changed: bool) -> Result<()> {
     }
 }
 
-/// Every item; pictures first, for they take longest.
+/// Every item; pictures first, because they take longest.
 fn all<'a>(
     pictures: &'a [Picture],
     mistakes: &'a [Mistake],
@@ -145,7 +145,7 @@ fn all<'a>(
 }
 
 impl Item<'_> {
-    /// Its name, unlike all others.
+    /// Its unique name.
     fn name(&self) -> String {
         match self {
             Self::Picture(picture) => picture.file(),
@@ -165,10 +165,10 @@ impl Item<'_> {
         }
     }
 
-    /// Runs its command, and compares.
+    /// Runs its command, and compares the result.
     ///
     /// # Errors
-    /// If a signal asks for the end.
+    /// If a signal requests termination.
     fn compare(&self, programs: &Programs, stored: &Records) -> Result<Verdict> {
         let project = programs.project;
         let mut verdict = Verdict::default();
@@ -188,7 +188,7 @@ impl Item<'_> {
                 let (folder, trial) =
                     (NewFolder::temporary()?, Reproduction::new(programs, mistake));
                 let made = trial.make(folder.path());
-                // Labels tell how long it took, and memory that nobody wrote may hold anything.
+                // Labels contain times, and uninitialised memory may contain anything.
                 let is_steady =
                     !matches!(mistake.outcome, Outcome::Slower(_)) && mistake.unwritten.is_none();
                 match made {
@@ -262,7 +262,7 @@ impl Verdict {
         }
     }
 
-    /// Compares with a picture of another device or driver: it may differ as far as rounding makes it.
+    /// Compares with a picture of another device or driver, which may differ by rounding.
     fn elsewhere(
         &mut self,
         file: &str,
@@ -357,15 +357,16 @@ impl Verdict {
     }
 }
 
-/// True if two values are equal, or are means that differ by no more than another processor's rounding: a software
-/// driver compiles for the one that it finds. Counts must be equal.
+/// True if two values are equal, or are means that differ by no more than another processor's rounding: a
+/// software driver compiles for the present processor. Counts must be equal.
 fn is_near(old: &serde_json::Value, new: &serde_json::Value) -> bool {
     let (Some(a), Some(b)) = (old.as_f64(), new.as_f64()) else { return old == new };
     let is_count = old.is_u64() || old.is_i64();
     a == b || !is_count && (a - b).abs() <= 1e-4 * a.abs()
 }
 
-/// The items that have passed since the code last changed, in `target/verify`: a run that was interrupted goes on.
+/// The items that have passed since the code last changed, in `target/verify`, so that an interrupted run can
+/// continue.
 struct Log {
     file: PathBuf,
     passed: BTreeSet<String>,
@@ -394,7 +395,7 @@ impl Log {
     }
 }
 
-/// A hash of the commit and of all that differs from it.
+/// A hash of the commit and of all differences from it.
 fn state(root: &Path) -> String {
     let mut hasher = DefaultHasher::new();
     change::text(root, &["rev-parse", "HEAD"]).hash(&mut hasher);

@@ -1,4 +1,4 @@
-//! Who calls whom: the shaders of a ray, and the order in which any-hit shaders run.
+//! The shaders of a ray and their callers, and the order in which any-hit shaders run.
 
 use crate::sheet::Anchor::{End, Middle, Start};
 use crate::sheet::{BROWN, DEVICE, LINE, RED, Sheet, WHITE, YOURS};
@@ -73,7 +73,7 @@ fn traversal(s: &mut Sheet) {
     s.note([528.0, 350.0], Start, "a hit, reported by");
     s.note([528.0, 366.0], Start, "reportIntersectionEXT");
     s.note([528.0, 382.0], Start, "(if not opaque)");
-    // Back to the traversal: from the any-hit shader, and past it where the geometry is opaque.
+    // Back to the traversal: from the any-hit shader, and past it for opaque geometry.
     s.arrow(&[[415.0, 404.0], [415.0, 164.0]]);
     s.note([424.0, 344.0], Start, "accepted");
     s.note([424.0, 360.0], Start, "or ignored:");
@@ -115,7 +115,7 @@ pub fn any_hit_order() -> String {
     s.arrow(&[[40.0, ray], [800.0, ray]]);
     s.dot([40.0, ray], 5.0, LINE);
     s.note([40.0, ray + 24.0], Middle, "origin");
-    // Where each pane is along the ray, which call meets it, and what becomes of it.
+    // The place of each pane along the ray, the call that meets it, and the result.
     let panes = [
         (180.0, "3rd call", "accepted: the nearest", "so far", BROWN),
         (340.0, "1st call", "ignored: a hole", "", LINE),

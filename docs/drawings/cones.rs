@@ -1,4 +1,4 @@
-//! A ray's cone: what it cuts from a surface, and what is read of the texture there.
+//! A ray's cone: its ellipse on a surface, and the texture lookups there.
 
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_2;
@@ -30,7 +30,7 @@ fn from_the_side(s: &mut Sheet) {
     let hit = on_floor(0.0);
     let width = 2.0 * half * hit.distance(eye);
     let across = towards(0.0).perp() * (width / 2.0);
-    // As the shader takes it: a cylinder as wide as the cone at the hit.
+    // As in the shader: a cylinder as wide as the cone at the hit.
     let long = width / slope.sin();
     let ends = [hit - DVec2::X * (long / 2.0), hit + DVec2::X * (long / 2.0)];
     s.polygon(&[eye, hit + across, hit - across].map(point), YOURS, BROWN);
@@ -74,8 +74,8 @@ fn on_the_texture(s: &mut Sheet) {
     s.say([left, 302.0], Start, "each as wide as the shorter one: level 1.7");
 }
 
-/// A cone at a mirror that bulges and at one that is hollow, beside what a flat one would make of it. Its rays are
-/// mirrored one by one.
+/// A cone at a convex and at a concave mirror, next to its image in a flat one. Its rays are mirrored one by
+/// one.
 pub fn bent() -> String {
     let mut s = Sheet::new([840, 330], "A cone at a mirror that bulges, and at one that is hollow");
     for (left, radius, title) in [
@@ -88,7 +88,7 @@ pub fn bent() -> String {
     s.svg()
 }
 
-/// The mirror's middle lies at `hit`, and looks up; `radius` is negative for a hollow one.
+/// The mirror's middle is at `hit`, and faces up; `radius` is negative for a concave one.
 fn at_mirror(s: &mut Sheet, hit: DVec2, radius: f64) {
     let center = hit + DVec2::Y * radius;
     let arc = |i: i32| {
@@ -98,9 +98,9 @@ fn at_mirror(s: &mut Sheet, hit: DVec2, radius: f64) {
     s.line(&(-24..=24).map(arc).collect::<Vec<_>>(), LINE, 4.0);
     let (slope, half, far) = (0.85, 0.055, 190.0);
     let eye = hit - DVec2::from_angle(slope) * 165.0;
-    // What is drawn ends square to the middle of the mirrored cone.
+    // The drawing ends at right angles to the axis of the mirrored cone.
     let onwards = DVec2::from_angle(-slope);
-    // Where a ray is mirrored, at the circle or at its tangent, and where it ends.
+    // The place where a ray is mirrored, at the circle or at its tangent, and its end.
     let traced = |turn: f64, is_flat: bool| {
         let along = DVec2::from_angle(slope + turn);
         let to_center = eye - center;

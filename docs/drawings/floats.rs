@@ -1,12 +1,12 @@
-//! Where numbers of 32 bits lie, far from the origin and near it.
+//! The 32-bit floats far from the origin and near it.
 
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{BROWN, LINE, Point, RED, Sheet};
 
-/// Eye and piece, in f64: a million units and so much.
+/// Eye and piece, in f64: offsets from a million units.
 const EYE: f64 = 0.146;
 const PIECE: f64 = 0.602;
-/// Pixels of the drawing for a unit, and where the first number lies.
+/// Pixels of the drawing per unit, and the place of the first number.
 const UNIT: f64 = 920.0;
 const LEFT: f64 = 60.0;
 
@@ -14,12 +14,12 @@ fn x(place: f64) -> f64 {
     LEFT + UNIT * place
 }
 
-/// What is left of a number of a million units and `place`.
+/// The offset left after rounding a million units plus `place`.
 fn snapped(place: f64) -> f64 {
     f64::from((1e6 + place) as f32) - 1e6
 }
 
-/// The difference of two places, rounded before it is taken, and after.
+/// The difference of two places, rounded before the subtraction, and after it.
 pub fn subtract_first() -> String {
     let mut s = Sheet::new([840, 374], "Rounded first, or subtracted first");
     let (first, second) = (104.0, 268.0);
@@ -39,7 +39,8 @@ pub fn subtract_first() -> String {
     s.note([x(0.75), first + 36.0], Middle, "1,000,000.75");
 
     s.title([LEFT, 230.0], Start, "Camera-relative ones: subtract in 64 bits, then round");
-    // Near 0 floats lie a million times as dense: too many to draw, and even these are too few.
+    // Near 0, floats are a million times as dense. These are fewer than there are, because all would be too
+    // many to draw.
     ruler(&mut s, second, 1.0 / 256.0);
     for (place, name) in [(EYE, "eye"), (PIECE, "piece")] {
         s.dot([x(place), second], 5.0, BROWN);
@@ -56,7 +57,7 @@ pub fn subtract_first() -> String {
     s.svg()
 }
 
-/// A line with a stroke for each number.
+/// A line with a tick for each number.
 fn ruler(s: &mut Sheet, y: f64, step: f64) {
     s.line(&[[x(0.0), y], [x(0.75), y]], LINE, 1.4);
     let count = (0.75 / step) as u32;

@@ -3,10 +3,10 @@
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{BLUE, DEVICE, GREEN, RED, Sheet, YOURS};
 
-/// A bar of the drawing: its row, where it begins and ends, its color and its name.
+/// A bar of the drawing: its row, its beginning and end, its color and its name.
 type Bar = (usize, f64, f64, &'static str, &'static str);
 
-/// One frame of chapter 14: compute shader, copy, two builds and rays, each waiting for the one before.
+/// One frame of chapter 14: compute shader, copy, two builds and rays, each waiting for the previous one.
 pub fn barriers() -> String {
     const TOP: f64 = 64.0;
     const ROW: f64 = 42.0;

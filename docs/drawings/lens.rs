@@ -7,7 +7,7 @@ use crate::sheet::{BLUE, BROWN, LINE, Point, Sheet, YOURS};
 const DIAMETER: f64 = 120.0;
 const FOCUS: f64 = 150.0;
 
-/// Three lights before, in and behind the plane in focus, and what the lens sees of each.
+/// Three lights in front of, in and behind the plane in focus, and their images.
 pub fn thin_lens() -> String {
     let mut s = Sheet::new([840, 330], "How far a light is spread: the circle of confusion");
     let panels = [
@@ -22,7 +22,7 @@ pub fn thin_lens() -> String {
         lens(&mut s, [left, axis]);
         let plane = left + FOCUS;
         s.dashes(&[[plane, axis - 70.0], [plane, axis + 70.0]], LINE, 1.4);
-        // From both rims through the light: where they cross the plane, similar triangles tell.
+        // The rays from both rims through the light cross the plane according to similar triangles.
         let light = [left + depth, axis];
         let half = DIAMETER / 2.0 * (depth - FOCUS) / depth;
         for rim in [-DIAMETER / 2.0, DIAMETER / 2.0] {
@@ -60,7 +60,7 @@ fn lens(s: &mut Sheet, [x, y]: Point) {
     s.polygon(&outline, BLUE, LINE);
 }
 
-/// A length below what it measures.
+/// A dimension line below the measured length.
 fn measure(s: &mut Sheet, [x, y]: Point, length: f64, name: &str) {
     s.line(&[[x, y], [x + length, y]], LINE, 1.0);
     for end in [x, x + length] {

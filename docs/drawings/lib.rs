@@ -1,18 +1,18 @@
-//! The inks of all drawings and charts of the book, by light and by dark.
+//! The inks of all drawings and charts of the book, in the light and the dark scheme.
 //!
-//! A drawing names its colours as they are by light, so that every viewer shows it. [`themed`] adds one style
-//! that replaces them where the reader's scheme is dark. Inside an `<img>` that scheme is the one of the
-//! page around it (Media Queries 5, section 12.5), so the book's own switch works, too.
+//! A drawing contains the light colours, so that every viewer shows it. [`themed`] adds a style that replaces
+//! them if the reader's scheme is dark. Inside an `<img>` that scheme is the one of the surrounding page
+//! (Media Queries 5, section 12.5), so the book's own switch works as well.
 
 pub mod map;
 pub mod sheet;
 
 use std::fmt::Write;
 
-/// What an ink is for: this says how far it must stand out.
+/// The use of an ink, which determines its contrast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum For {
-    /// What lies behind text and lines.
+    /// The background of text and lines.
     Ground,
     /// Text, and lines that carry the meaning.
     Text,
@@ -22,28 +22,28 @@ pub enum For {
     Grid,
 }
 
-/// A colour by light and by dark, as SVG writes it.
+/// A colour in the light and the dark scheme, as SVG writes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Ink {
-    /// Its colour in the file, and by light.
+    /// Its colour in the file, and in the light scheme.
     pub light: &'static str,
-    /// Its colour by dark.
+    /// Its colour in the dark scheme.
     pub dark: &'static str,
-    /// What it is for.
+    /// Its use.
     pub use_for: For,
 }
 
 /// Lines and arrows.
 pub const LINE: &str = "#5b6b78";
-/// What is said beside a line.
+/// Text next to a line.
 pub const SOFT: &str = "#44535f";
-/// What is said.
+/// Text.
 pub const TEXT: &str = "#22303c";
 /// The sheet.
 pub const PAPER: &str = "#f7f8f9";
-/// What the reader writes, and what is chosen.
+/// The reader's own code, and a choice.
 pub const YOURS: &str = "#f2e3c6";
-/// What the device does.
+/// The device's work.
 pub const DEVICE: &str = "#d8dee4";
 /// A group of things; another.
 pub const BLUE: &str = "#dcebf7";
@@ -53,7 +53,7 @@ pub const GREEN: &str = "#e2f0e0";
 pub const WHITE: &str = "#ffffff";
 /// The outline of shapes.
 pub const BROWN: &str = "#8a5a12";
-/// What is wrong.
+/// An error.
 pub const RED: &str = "#b3261e";
 /// The outline of a second shape; of a third.
 pub const LEAF: &str = "#3a7d44";
@@ -82,7 +82,7 @@ pub const INKS: &[Ink] = &[
     ink("#c2571a", "#ff9c5a", For::Line),
     ink("#9a6a1c", "#e0b25c", For::Line),
     ink(FAINT, "#4a5464", For::Grid),
-    // Of charts.
+    // The inks of charts.
     ink("#FFFFFF", "#1c212d", For::Ground),
     ink("#000000", "#e6e9ec", For::Text),
     ink("#3C3C3C", "#dadde0", For::Text),
@@ -98,13 +98,13 @@ const fn ink(light: &'static str, dark: &'static str, use_for: For) -> Ink {
     Ink { light, dark, use_for }
 }
 
-/// Where the style begins and ends, by which it is found again.
+/// The beginning and end of the style, by which it is found again.
 const STYLE: [&str; 2] = ["<style>@media (prefers-color-scheme: dark) {", "}</style>\n"];
 
-/// An SVG with the style that gives its inks their colours by dark; a second time changes nothing.
+/// Adds the style with the dark colours to an SVG; repeating it changes nothing.
 ///
 /// # Errors
-/// If the text has no `<svg>`, or a colour that is no ink.
+/// If the text has no `<svg>`, or contains a colour that is not an ink.
 pub fn themed(svg: &str) -> Result<String, String> {
     let mut text = svg.to_owned();
     if let Some(start) = text.find(STYLE[0]) {
@@ -163,8 +163,8 @@ mod tests {
                 For::Ground | For::Grid => continue,
             };
             for ground in grounds() {
-                // Lines in colour stand on paper and cards; the drawings themselves are looked at in
-                // Chromium.
+                // Coloured lines are drawn on paper and cards; a test in Chromium checks the drawings
+                // themselves.
                 let paper = [PAPER, WHITE, "#FFFFFF"].contains(&ground.light);
                 if ink.use_for == For::Line && !paper {
                     continue;

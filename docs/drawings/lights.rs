@@ -1,4 +1,4 @@
-//! How lamps fill a view, and which way of two finds them.
+//! Lamps as seen from a point, and the balance of two ways to sample them.
 
 use glam::DVec2;
 
@@ -59,7 +59,7 @@ fn panel(s: &mut Sheet) {
     for i in 0..8 {
         let part = (f64::from(i) + 0.5) / 8.0;
         let turned = DVec2::from_angle(angles[0] + part * (angles[1] - angles[0]));
-        // Where a ray in this direction crosses the panel's line.
+        // The point where a ray in this direction crosses the panel's line.
         let edge = high - low;
         let t = edge.perp_dot(low - from) / edge.perp_dot(turned);
         s.line(&[point(from), point(from + t * turned)], LINE, 1.0);
@@ -85,7 +85,7 @@ fn balance(s: &mut Sheet) {
     let xs = || (0..=100).map(|i| f64::from(i) / 100.0);
     let within: Vec<f64> = xs().filter(|x| by_lamp(*x) > 0.0).collect();
     let (first, last) = (within[0], within[within.len() - 1]);
-    // The lamp's column is all the light: each way counts the part that its density has.
+    // All light is in the lamp's column; each way is weighted by its share of the density.
     let part = |x: f64| by_lamp(x) * by_surface(x) / (by_surface(x) + by_lamp(x));
     let shared: Vec<Point> = within.iter().map(|&x| at(x, part(x))).collect();
     let lower = [&[at(first, 0.0)], &shared[..], &[at(last, 0.0)]].concat();

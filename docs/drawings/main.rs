@@ -1,7 +1,7 @@
-//! Draws the ideas of the book: `cargo run -p drawings` writes them all to `docs/images`, and gives what is
-//! drawn elsewhere its inks by dark.
+//! Draws the ideas of the book: `cargo run -p drawings` writes all drawings to `docs/images`, and adds the
+//! dark inks to the other SVGs.
 //!
-//! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
+//! A drawing that shows data computes it: the hill, the solids and the triangles are real.
 
 mod calls;
 mod cones;
@@ -28,7 +28,7 @@ use std::process::ExitCode;
 
 use drawings::{map, sheet};
 
-/// A drawing's name, and what draws it.
+/// A drawing's name, and the function that draws it.
 type Drawing = (&'static str, fn() -> String);
 
 const DRAWINGS: &[Drawing] = &[

@@ -1,6 +1,6 @@
-//! The map of the book: the first way as one line, and below it every chapter under the one it comes from.
+//! The map of the book: the first way as one line, and below it every chapter under its parent.
 //!
-//! All of it is from `Cargo.toml`. It is narrow, so that a phone shows its words in a size that can be read.
+//! All of it comes from `Cargo.toml`. It is narrow, so that its words can be read on a phone.
 
 use std::path::Path;
 
@@ -9,38 +9,38 @@ use manuscript::project::{Chapter, Project, Way};
 use crate::sheet::Anchor::{End, Middle, Start};
 use crate::sheet::{BLUE, BROWN, DEVICE, GREEN, LEAF, LINE, SEA, Sheet, WHITE, YOURS};
 
-/// The height of a row and of a card, and how far a chapter stands to the right of the one it comes from.
+/// The height of a row and of a card, and the indent of a chapter from its parent.
 const ROW: f64 = 27.0;
 const CARD: f64 = 21.0;
 const STEP: f64 = 18.0;
-/// The left edge, and that of the first row.
+/// The left edge, and the top of the first row.
 const LEFT: f64 = 14.0;
 const TOP: f64 = 168.0;
 /// The line of the first way: its height, and the radius of a stop.
 const FIRST: f64 = 62.0;
 const FIRST_RADIUS: f64 = 15.0;
-/// From way to way.
+/// The distance between ways.
 const LANE: f64 = 28.0;
-/// What a letter is wide at most, on average, plain and strong, and the room beside a card's words.
+/// The width of a letter, at most on average, regular and bold; and the margin of a card.
 const LETTER: [f64; 2] = [7.2, 8.2];
 const MARGIN: f64 = 7.0;
-/// Room for the number of a part.
+/// The width reserved for the number of a part.
 const NUMERAL: f64 = 24.0;
 
-/// What the parts of the book are drawn in, and the ways beside the tree.
+/// The fills of the parts of the book, and the colours of the ways next to the tree.
 const GROUNDS: [&str; 6] = [BLUE, GREEN, YOURS, "#f3d9a8", DEVICE, WHITE];
 const INKS: [&str; 2] = [SEA, LEAF];
 
 /// The chapters of this book.
 ///
 /// # Panics
-/// If its manifest cannot be read.
+/// If the manifest cannot be read.
 pub fn chapters() -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     draw(&Project::open(&root).expect("Cargo.toml names the chapters"))
 }
 
-/// The first way as one line from left to right, which ends in a program of the reader's own.
+/// The first way as one line from left to right, which ends in the reader's own program.
 fn first_line(s: &mut Sheet, project: &Project, way: &Way, width: f64) {
     let stops: Vec<(&str, &str)> = (way.chapters.iter())
         .filter_map(|number| project.chapters.iter().find(|chapter| chapter.number() == *number))
@@ -81,7 +81,7 @@ pub fn draw(project: &Project) -> String {
         letter * chapter.heading().chars().count() as f64 + 2.0 * MARGIN + NUMERAL
     };
     let right = (0..tree.len()).map(|row| place(row)[0] + width(row)).fold(0.0, f64::max);
-    // The upper way is the outermost, so that its line crosses no other's words.
+    // The upper way is outermost, so that its line crosses no other way's words.
     let lane = |way: usize| right + 24.0 + LANE * (ways.len() - 1 - way) as f64;
     let legend = TOP + ROW * (ways.len() + tree.len()) as f64 + 22.0;
     let size =

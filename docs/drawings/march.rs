@@ -5,10 +5,10 @@ use reference::heightfield::Heightfield;
 use crate::sheet::Anchor::Start;
 use crate::sheet::{BROWN, GREEN, LINE, Point, Sheet};
 
-/// A ray over the land, in the plane: its height at x = 0, and its slope.
+/// A ray over the land, in 2D: its height at x = 0, and its slope.
 const RAY: [f64; 2] = [0.58, -0.09];
 
-/// Where a march stands after each step, as t. A step is `factor` times the height.
+/// The position after each step of a march, as t. A step is `factor` times the height.
 fn march(land: &Heightfield, factor: f64) -> Vec<f64> {
     let mut places = vec![0.0];
     while places.len() < 60 {
@@ -29,7 +29,7 @@ fn at(t: f64) -> [f64; 2] {
     [along, RAY[0] + RAY[1] * along]
 }
 
-/// Steps of 2·h against the longest that are safe.
+/// Steps of 2·h, and the longest safe steps.
 pub fn steps() -> String {
     let mut s = Sheet::new([840, 430], "How far may a step go?");
     let land = Heightfield {
@@ -44,7 +44,7 @@ pub fn steps() -> String {
     };
     let slope = |x: f64| land.height(x, 0.0).1[0].abs();
     let steepest = (0..4000).map(|k| slope(f64::from(k) * 2e-3)).fold(0.0, f64::max);
-    // How fast the ray comes down on ground that rises as steeply as it ever does, per unit of t.
+    // The speed at which the ray approaches ground of the steepest slope, per unit of t.
     let falling = (steepest - RAY[1]) / RAY[1].hypot(1.0);
     let (left, scale) = (40.0, 95.0);
     let marches = [("Steps of 2·h", 2.0), ("Steps of h / (L·|d_xz| − d_y)", 1.0 / falling)];

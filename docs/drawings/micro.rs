@@ -1,18 +1,18 @@
-//! Micro-triangles: the order in which they lie, and the texels that decide what is known of one.
+//! Micro-triangles: their order, and the texels that determine the state of one.
 
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{
     BLUE, BROWN, DEVICE, FAINT, GREEN, LEAF, LINE, Point, RED, SEA, Sheet, WHITE, YOURS,
 };
 
-/// The grounds of a triangle's four parts.
+/// The fills of a triangle's four parts.
 const PARTS: [&str; 4] = [BLUE, GREEN, YOURS, DEVICE];
 
 fn middle(a: Point, b: Point) -> Point {
     [0, 1].map(|i| (a[i] + b[i]) / 2.0)
 }
 
-/// The micro-triangles of a triangle in their order.
+/// The micro-triangles of a triangle, in order.
 fn cut([a, b, c]: [Point; 3], level: u32) -> Vec<[Point; 3]> {
     if level == 0 {
         return vec![[a, b, c]];
@@ -28,7 +28,7 @@ fn center([a, b, c]: [Point; 3]) -> Point {
     [0, 1].map(|i| (a[i] + b[i] + c[i]) / 3.0)
 }
 
-/// Three levels. Numbers where there is room for them, and the way from each to the next.
+/// Three levels, with numbers where they fit, and the path from each micro-triangle to the next.
 pub fn order() -> String {
     let mut s = Sheet::new([840, 340], "The order of the micro-triangles, level 1 to 3");
     for (k, level) in [1, 2, 3].into_iter().enumerate() {
@@ -62,7 +62,7 @@ pub fn order() -> String {
     s.svg()
 }
 
-/// The texels that lookups over a micro-triangle can read.
+/// The texels that lookups over a micro-triangle may read.
 pub fn bound() -> String {
     let mut s = Sheet::new([840, 372], "What lookups over one micro-triangle can read");
     let (left, top, texel) = (28.0, 64.0, 28.0);

@@ -3,12 +3,12 @@
 use crate::sheet::Anchor::Middle;
 use crate::sheet::{BROWN, FAINT, LEAF, LINE, Point, RED, SEA, Sheet};
 
-/// How many points.
+/// The number of points.
 const COUNT: u32 = 48;
-/// Binary digits of a coordinate that the curves look at.
+/// The binary digits of a coordinate used by the curves.
 const DIGITS: u32 = 5;
 
-/// Points of the square [0, 1] by a generator of random numbers, in the order in which they come.
+/// Random points of the square [0, 1], in the order in which they are generated.
 fn points() -> Vec<[f64; 2]> {
     let mut state = 7u32;
     let mut next = || {
@@ -22,12 +22,12 @@ fn cell(point: &[f64; 2]) -> [u32; 2] {
     point.map(|x| (x * f64::from(1 << DIGITS)) as u32)
 }
 
-/// The digits by turns, the highest first.
+/// Interleaves the digits, the highest first.
 fn morton([x, y]: [u32; 2]) -> u32 {
     (0..DIGITS).rev().fold(0, |code, digit| code << 2 | (x >> digit & 1) << 1 | y >> digit & 1)
 }
 
-/// How far along Hilbert's curve.
+/// The position along Hilbert's curve.
 fn hilbert([mut x, mut y]: [u32; 2]) -> u32 {
     (0..DIGITS).rev().fold(0, |way, digit| {
         let [right, up] = [x, y].map(|x| x >> digit & 1);
@@ -43,7 +43,7 @@ fn hilbert([mut x, mut y]: [u32; 2]) -> u32 {
     })
 }
 
-/// The same points in four orders. The tree's second level has four boxes: one for each quarter of the list.
+/// The same points in four orders. The tree's second level has four boxes, one for each quarter of the list.
 pub fn quarters() -> String {
     let mut s = Sheet::new(
         [840, 282],

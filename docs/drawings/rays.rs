@@ -13,13 +13,13 @@ fn point(p: DVec2) -> Point {
     p.to_array()
 }
 
-/// The weights of a triangle's corners that mix to `p`.
+/// The barycentric weights of `p`.
 fn weights(p: DVec2, [a, b, c]: [DVec2; 3]) -> [f64; 3] {
     let all = cross(b - a, c - a);
     [cross(b - p, c - p) / all, cross(c - p, a - p) / all, cross(a - p, b - p) / all]
 }
 
-/// Where a ray first meets a triangle's outline, as t.
+/// The first intersection of a ray with a triangle's outline, as t.
 fn meets(origin: DVec2, direction: DVec2, corners: [DVec2; 3]) -> Option<f64> {
     let edge = |k: usize| {
         let (from, along) = (corners[k], corners[(k + 1) % 3] - corners[k]);
@@ -30,7 +30,7 @@ fn meets(origin: DVec2, direction: DVec2, corners: [DVec2; 3]) -> Option<f64> {
     (0..3).filter_map(edge).reduce(f64::min)
 }
 
-/// One triangle and the pixels that it covers; one pixel and the triangle that its ray meets.
+/// A triangle and the pixels it covers; a pixel and the triangle its ray meets.
 pub fn from_raster() -> String {
     let mut s = Sheet::new([840, 330], "Two questions");
     let (left, top, side) = (40.0, 60.0, 22.0);
@@ -206,7 +206,7 @@ pub fn barycentrics() -> String {
     s.svg()
 }
 
-/// Three starts of a shadow ray.
+/// Three starting points of a shadow ray.
 pub fn acne_and_leak() -> String {
     let mut s = Sheet::new([840, 330], "Where a shadow ray may start");
     let panels = [
@@ -236,7 +236,7 @@ pub fn acne_and_leak() -> String {
             GREEN,
             LINE,
         );
-        // A thin piece that stands close by.
+        // A thin piece close by.
         s.polygon(
             &[
                 [x + 118.0, floor - 52.0],
@@ -265,7 +265,7 @@ pub fn acne_and_leak() -> String {
     s.svg()
 }
 
-/// What a pixel covers of a floor, near and far.
+/// The footprint of a pixel on a floor, near and far.
 pub fn footprint() -> String {
     let mut s = Sheet::new(
         [840, 300],
@@ -305,7 +305,7 @@ pub fn footprint() -> String {
     s.svg()
 }
 
-/// The plane through the eye and a triangle's edge, and a pixel's distance to it in the picture.
+/// The plane through the eye and a triangle's edge, and a pixel's distance from it in the picture.
 pub fn edge_plane() -> String {
     let mut s = Sheet::new([840, 400], "The plane through the eye and an edge");
     // Seen from the side: the view goes to the right.
@@ -321,7 +321,8 @@ pub fn edge_plane() -> String {
     for end in [b, c] {
         s.dashes(&[eye, end].map(shown), LINE, 1.2);
     }
-    // In the picture the plane is a line; a pixel's distance to it is n·d over the length of n's part there.
+    // In the picture the plane is a line; a pixel's distance from it is n·d over the length of n's part in
+    // the picture.
     let [from, to] = [b, c].map(|end| end / end.z);
     s.line(&[from, to].map(shown), RED, 3.0);
     let pixel = DVec3::new(-0.33, -0.16, 1.0);

@@ -1,4 +1,4 @@
-//! Shadow rays to lights of all kinds, and from surfaces that are rounder than they are made.
+//! Shadow rays to lights of all kinds, and from surfaces whose normals are smoother than their triangles.
 
 use glam::DVec2;
 
@@ -9,12 +9,12 @@ fn point(p: DVec2) -> Point {
     p.to_array()
 }
 
-/// The floor of a panel, from `x` on.
+/// The floor of a panel, starting at `x`.
 fn floor(s: &mut Sheet, x: f64, y: f64, width: f64) {
     s.polygon(&[[x, y], [x + width, y], [x + width, y + 14.0], [x, y + 14.0]], GREEN, LINE);
 }
 
-/// What the sun and a lamp answer to the same three questions.
+/// Direction, strength and ray length for the sun and for a lamp.
 pub fn two_lights() -> String {
     let mut s = Sheet::new([840, 350], "A light gives a direction, a strength and the ray's end");
     let ground = 250.0;
@@ -30,7 +30,7 @@ pub fn two_lights() -> String {
 
     floor(&mut s, 440.0, ground, 376.0);
     let lamp = DVec2::new(600.0, 120.0);
-    // Spheres of light: at twice the radius, the same light on four times the area.
+    // Spheres of light: at twice the radius, the same light covers four times the area.
     for radius in [65.0, 130.0] {
         let at = |i: i32| {
             let angle = 0.32 + (std::f64::consts::PI - 0.64) * f64::from(i) / 40.0;
@@ -58,13 +58,13 @@ pub fn two_lights() -> String {
     s.svg()
 }
 
-/// Which part of a disk three points see past an edge.
+/// The part of a disk visible past an edge from three points.
 pub fn penumbra() -> String {
     let mut s = Sheet::new([840, 360], "From the penumbra, a part of the disk is seen");
     let ground = 270.0;
     let (left, right) = (DVec2::new(150.0, 78.0), DVec2::new(290.0, 78.0));
     let edge = DVec2::new(330.0, 180.0);
-    // Where a line from an end of the disk over the edge meets the floor.
+    // The point of the floor on the line from an end of the disk over the edge.
     let lands = |from: DVec2| {
         let way = edge - from;
         from + way * ((ground - from.y) / way.y)
@@ -78,7 +78,7 @@ pub fn penumbra() -> String {
     s.line(&[point(left), point(right)], BROWN, 6.0);
     s.note([220.0, 64.0], Middle, "the disk that shines");
     s.note([500.0, 172.0], Middle, "what stands in the way");
-    // Rays of one point in the middle of the penumbra: to the seen half, and to the hidden one.
+    // Rays from one point in the middle of the penumbra: to the visible half, and to the hidden one.
     let from = 0.5 * (umbra + lit);
     for i in 0..8 {
         let to = left.lerp(right, (f64::from(i) + 0.5) / 8.0);
@@ -103,7 +103,7 @@ pub fn penumbra() -> String {
     s.svg()
 }
 
-/// A round surface, the triangles that stand for it, and the start of a shadow ray by each.
+/// A round surface, its triangles, and the start of a shadow ray for each.
 pub fn lift() -> String {
     let mut s = Sheet::new([840, 350], "Two normals: one to leave by, one to shade by");
     let (middle, radius) = (DVec2::new(224.0, 470.0), 290.0);

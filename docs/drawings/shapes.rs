@@ -8,7 +8,7 @@ use reference::sphere::Sphere;
 use crate::sheet::Anchor::{self, Middle, Start};
 use crate::sheet::{BLUE, BROWN, FAINT, GREEN, LINE, RED, SEA, Sheet, WHITE, YOURS};
 
-/// A box in the plane as two slabs.
+/// A 2D box as two slabs.
 pub fn slabs() -> String {
     let mut s = Sheet::new([840, 340], "A box is where slabs overlap");
     let (low, high) = ([230.0, 110.0], [390.0, 210.0]);
@@ -109,7 +109,7 @@ pub fn foot() -> String {
     s.svg()
 }
 
-/// A ball less another, within a half-space: the intervals are those of the reference.
+/// A ball minus another, intersected with a half-space: the intervals come from the reference.
 pub fn intervals() -> String {
     let mut s = Sheet::new([840, 360], "A solid is a rule on intervals");
     let ball = |x: f64, radius: f64| Sphere { center: DVec3::new(x, 0.0, 0.0), radius };
@@ -149,12 +149,12 @@ pub fn intervals() -> String {
     s.svg()
 }
 
-/// A swept sphere in the plane: its balls, where body and caps meet, its normal and that of its axis.
+/// A swept sphere in 2D: its balls, the circles where body and caps meet, its normal and that of its axis.
 pub fn swept() -> String {
     let mut s = Sheet::new([840, 330], "A swept sphere");
     let (a, b, r, q) = ([170.0, 178.0], [470.0, 178.0], 96.0, 34.0);
     let along = (b[0] - a[0], q - r);
-    // The body touches each ball where the normal leans by δ/|u|.
+    // The body touches each ball where the normal is inclined by δ/|u|.
     let lean: f64 = -along.1 / along.0;
     let cosine = (1.0 - lean * lean).sqrt();
     let ball = |part: f64| ([a[0] + part * along.0, a[1]], r + part * along.1);

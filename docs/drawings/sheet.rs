@@ -1,4 +1,4 @@
-//! A sheet: an SVG drawing in the one style that all have.
+//! A sheet: an SVG drawing in the common style.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ pub use crate::{
 /// A point, in pixels from the top left corner.
 pub type Point = [f64; 2];
 
-/// Which end of a text its point is.
+/// The point of a text that its coordinates mark.
 #[derive(Clone, Copy)]
 pub enum Anchor {
     /// Its left end.
@@ -23,7 +23,7 @@ pub enum Anchor {
 
 use Anchor::*;
 
-/// A drawing that is being made.
+/// A drawing in progress.
 pub struct Sheet {
     text: String,
 }
@@ -72,7 +72,7 @@ impl Sheet {
         self.write(at, anchor, &format!(" fill=\"{SOFT}\""), text);
     }
 
-    /// A line of text in bold, no larger than others.
+    /// A line of text in bold, in the usual size.
     pub fn strong(&mut self, at: Point, anchor: Anchor, text: &str) {
         self.write(at, anchor, " font-weight=\"bold\"", text);
     }

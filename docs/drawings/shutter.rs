@@ -1,21 +1,21 @@
-//! The shutter's time: when samples look, and where a triangle is then.
+//! The shutter's time: the times of samples, and the position of a triangle at each.
 
 use glam::DVec2;
 
 use crate::sheet::Anchor::{End, Middle, Start};
 use crate::sheet::{BROWN, FAINT, LEAF, LINE, Point, RED, SEA, Sheet, WHITE, YOURS};
 
-/// How many samples a pixel has, and how many moments there are.
+/// The number of samples per pixel, and of moments.
 const COUNT: u32 = 8;
-/// The game's frame in which the numbers are drawn.
+/// The game's frame for which the random numbers are drawn.
 const FRAME: u32 = 934;
-/// What they are for: `DIMENSION_TIME` of the chapter.
+/// The dimension of the random numbers: `DIMENSION_TIME` of the chapter.
 const DIMENSION: u32 = 2;
 
 /// A time of the shutter, from the number of a sample and a random number.
 type TimeOf = dyn Fn(u32, f64) -> f64;
 
-/// The number that `random` of `common/random.glsl` gives a sample of a pixel: a hash, and 24 of its bits.
+/// The number that `random` of `common/random.glsl` returns for a sample of a pixel: 24 bits of a hash.
 fn random([x, y]: [u32; 2], sample: u32) -> f64 {
     let mut v = [x | y << 16, sample, FRAME, DIMENSION]
         .map(|x| x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
@@ -30,7 +30,7 @@ fn random([x, y]: [u32; 2], sample: u32) -> f64 {
     f64::from(v[0] >> 8) / f64::from(1 << 24)
 }
 
-/// The longest part of the time from 0 to 1 in which no sample looks.
+/// The longest part of the time from 0 to 1 without a sample.
 fn longest(times: &[f64]) -> [f64; 2] {
     let mut ends: Vec<f64> = times.iter().copied().chain([0.0, 1.0]).collect();
     ends.sort_by(f64::total_cmp);
@@ -38,7 +38,7 @@ fn longest(times: &[f64]) -> [f64; 2] {
     gaps.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0]))).expect("a gap")
 }
 
-/// The times of eight samples of four pixels, at random and in strata, as the chapter's shader finds them.
+/// The times of eight samples of four pixels, at random and in strata, computed as in the chapter's shader.
 pub fn times() -> String {
     let mut s = Sheet::new([840, 262], "When eight samples of a pixel look, in four pixels");
     let strata = |i: u32, u: f64| (f64::from(i) + u) / f64::from(COUNT);
@@ -75,14 +75,14 @@ pub fn times() -> String {
     s.svg()
 }
 
-/// A triangle in the plane that goes straight and turns, and the time of the ray that looks for it.
+/// A 2D triangle that moves and turns, and the time of the ray traced to it.
 const CORNERS: [DVec2; 3] =
     [DVec2::new(-34.0, 30.0), DVec2::new(30.0, 26.0), DVec2::new(4.0, -46.0)];
 const PLACES: [DVec2; 2] = [DVec2::new(76.0, 168.0), DVec2::new(292.0, 128.0)];
 const TURN: f64 = 1.2;
 const TIME: f64 = 0.62;
 
-/// Where the corners are, seen from the triangle's place: the mean of two quaternions, made as long as they are.
+/// The corners relative to the triangle's position, by the normalized mean of two quaternions.
 fn turned(time: f64) -> [DVec2; 3] {
     let half = TURN / 2.0;
     let angle = 2.0 * (time * half.sin()).atan2(1.0 - time + time * half.cos());
@@ -94,7 +94,7 @@ fn triangle(left: f64, time: f64) -> [Point; 3] {
     turned(time).map(|corner| (place + corner).to_array())
 }
 
-/// The box around its way, as `sweep.comp` finds it.
+/// The bounding box of its motion, computed as in `sweep.comp`.
 fn swept(left: f64) -> [Point; 4] {
     let bulge = 0.5 * (TURN / 4.0).tan();
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -108,7 +108,7 @@ fn swept(left: f64) -> [Point; 4] {
     [low.to_array(), [high.x, low.y], high.to_array(), [low.x, high.y]]
 }
 
-/// Left a copy for each of eight moments, right the box around the way.
+/// On the left a copy for each of eight moments, on the right the bounding box of the motion.
 pub fn methods() -> String {
     let heading = format!("What a ray of time {TIME} meets, by two methods");
     let mut s = Sheet::new([840, 292], &heading);

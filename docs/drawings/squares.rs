@@ -1,17 +1,17 @@
-//! Points of a pixel: how evenly they lie, and how they are scrambled.
+//! The points of a pixel: how even they are, and how they are scrambled.
 
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{BLUE, BROWN, LINE, Point, Sheet, WHITE, YOURS};
 
-/// How many points, and the binary digits of their coordinates.
+/// The number of points, and the binary digits of their coordinates.
 const COUNT: u32 = 16;
 const DIGITS: u32 = 4;
 
-/// The first points of Sobol', in whole sixteenths.
+/// The first points of Sobol', in sixteenths.
 fn sobol() -> Vec<[u32; 2]> {
     let mirrored = |bits: u32| bits.reverse_bits() >> (32 - DIGITS);
     let second = |i: u32| {
-        // Digit j is the parity of the bits k of i for which the binomial of k over j is odd.
+        // Digit j is the parity of the bits k of i for which the binomial coefficient of k over j is odd.
         let digit =
             |j: u32| (0..DIGITS).filter(|&k| i >> k & 1 == 1 && j & !k == 0).count() as u32 % 2;
         (0..DIGITS).fold(0, |y, j| y | digit(j) << (DIGITS - 1 - j))
@@ -19,7 +19,7 @@ fn sobol() -> Vec<[u32; 2]> {
     (0..COUNT).map(|i| [mirrored(i), second(i)]).collect()
 }
 
-/// A square from its lower left corner, and what lies in it.
+/// A square from its lower left corner, and its contents.
 struct Square {
     corner: Point,
     side: f64,
@@ -53,7 +53,7 @@ impl Square {
     }
 }
 
-/// The same points below five grids of as many boxes.
+/// The same points in five grids with the same number of boxes.
 pub fn boxes() -> String {
     let mut s =
         Sheet::new([840, 232], "The first 16 points of Sobol': one in each box, whatever the grid");
@@ -70,11 +70,11 @@ pub fn boxes() -> String {
     s.svg()
 }
 
-/// A coin for each part of the square: one for the whole, then one for each half, each quarter, each eighth.
+/// One coin per part of the square: one for the whole, then one for each half, each quarter, each eighth.
 const COLUMN_COINS: u32 = 0b100_1011_0100_1101;
 const ROW_COINS: u32 = 0b011_0110_0010_1011;
 
-/// A coordinate of which the first digits are flipped, each by the coin of the digits before it.
+/// A coordinate whose first digits are flipped, each by the coin of the digits before it.
 fn owen(x: u32, coins: u32, digits: u32) -> u32 {
     (0..digits).fold(x, |flipped, digit| {
         let before = x >> (DIGITS - digit);
@@ -83,10 +83,10 @@ fn owen(x: u32, coins: u32, digits: u32) -> u32 {
     })
 }
 
-/// Owen's scrambling, a digit after the other.
+/// Owen's scrambling, digit by digit.
 pub fn scrambling() -> String {
     let mut s = Sheet::new([840, 300], "Owen scrambling: a coin for each part of the square");
-    // How many digits of x and of y are flipped, and where the coloured parts are by then.
+    // The number of flipped digits of x and of y, and the place of the coloured parts after each step.
     let steps = [
         (
             "as they come",

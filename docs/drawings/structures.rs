@@ -1,4 +1,5 @@
-//! Acceleration structures: two levels, the way from a hit to its vertices, and what an update does to a tree.
+//! Acceleration structures: the two levels, the path from a hit to its vertices, and the effect of an update
+//! on a tree.
 
 use crate::sheet::Anchor::{End, Middle, Start};
 use crate::sheet::{BLUE, BROWN, DEVICE, GREEN, LINE, Point, RED, Sheet, WHITE, YOURS};
@@ -39,7 +40,7 @@ pub fn address_chain() -> String {
     s.card([24.0, 96.0], [126.0, 64.0], DEVICE, "push constants", &["scene.instances"]);
     s.card([24.0, 246.0], [126.0, 64.0], GREEN, "the hit", &["from the device"]);
     let corners = ["0: position, …", "1: position, …", "2: position, …", "3: position, …"];
-    // Of each its place, width, name and rows, and which of them are chosen.
+    // The position, width, name and rows of each, and the chosen rows.
     type Column<'a> = (f64, f64, &'a str, [&'a str; 4], &'a [usize]);
     let columns: [Column; 4] = [
         (180.0, 150.0, "InstanceRecord", ["0", "1", "2", "…"], &[2]),
@@ -83,7 +84,7 @@ pub fn address_chain() -> String {
     s.svg()
 }
 
-/// The box around some points, with a margin.
+/// The bounding box of some points, with a margin.
 fn bounds(points: &[Point]) -> [Point; 2] {
     let pick = |axis: usize, by: fn(f64, f64) -> f64| {
         points.iter().map(|point| point[axis]).reduce(by).expect("points")
@@ -92,7 +93,7 @@ fn bounds(points: &[Point]) -> [Point; 2] {
     [[pick(0, f64::min) - m, pick(1, f64::min) - m], [pick(0, f64::max) + m, pick(1, f64::max) + m]]
 }
 
-/// Six pieces in three boxes: built, moved and updated, moved and built anew.
+/// Six pieces in three boxes: built, moved and updated, moved and rebuilt.
 pub fn refit() -> String {
     let mut s = Sheet::new([840, 330], "An update keeps the tree and moves its boxes");
     let built: [Point; 6] = [

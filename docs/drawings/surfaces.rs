@@ -1,4 +1,4 @@
-//! Normals of a squashed surface, and points on a disk.
+//! Normals of a squashed surface, and points of a disk.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ fn point(p: DVec2) -> Point {
     p.to_array()
 }
 
-/// A circle with its normals; squashed, with its normals by the matrix and by the inverse transpose.
+/// A circle with its normals; then squashed, with its normals by the matrix and by the inverse transpose.
 pub fn squashed_normals() -> String {
     let mut s = Sheet::new([840, 300], "Squash a surface, and its normals turn the other way");
     let squash = DMat2::from_diagonal(DVec2::new(1.0, 0.35));
@@ -43,7 +43,7 @@ pub fn squashed_normals() -> String {
 pub fn disk_points() -> String {
     let mut s = Sheet::new([840, 300], "Sixteen points of a lamp's disk");
     const COUNT: u32 = 16;
-    // A linear congruential generator (Knuth's MMIX); these numbers leave a typical gap.
+    // A linear congruential generator (Knuth's MMIX); this seed leaves a typical gap.
     let mut state = 41_u64;
     let mut random = || {
         state =

@@ -3,8 +3,8 @@
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{BLUE, Sheet, WHITE, YOURS};
 
-/// That of chapter 01 in bytes: one record a region, on a device like this one and on one that wants regions
-/// farther apart.
+/// The table of chapter 01 in bytes: one record per region, on a device like this one and on one with a
+/// larger alignment of regions.
 pub fn chapter_01() -> String {
     const HANDLE: u32 = 32;
     const HANDLE_ALIGNMENT: u32 = 16;
@@ -32,7 +32,7 @@ pub fn chapter_01() -> String {
     s.svg()
 }
 
-/// That of chapter 05: a second miss record, which a shadow ray's missIndex chooses.
+/// The table of chapter 05: a second miss record, chosen by a shadow ray's missIndex.
 pub fn chapter_05() -> String {
     let mut s = Sheet::new([840, 250], "The shader binding table of chapter 05");
     let regions: [(&str, &str, &[&str]); 3] = [
@@ -59,7 +59,7 @@ pub fn chapter_05() -> String {
     s.svg()
 }
 
-/// That of chapter 13, which has records in all four regions.
+/// The table of chapter 13, which has records in all four regions.
 pub fn chapter_13() -> String {
     let mut s =
         Sheet::new([840, 430], "The shader binding table of chapter 13, with callable shaders");

@@ -1,11 +1,11 @@
-//! A walk through a tree of boxes in the plane: what it visits, what it puts aside, what it never opens.
+//! A walk through a 2D tree of boxes: the boxes it visits, puts on the stack, and never opens.
 
 use glam::DVec2;
 
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{BLUE, BROWN, GREEN, LINE, Point, RED, SEA, Sheet, WHITE, YOURS};
 
-/// A triangle with its letter's place.
+/// A triangle, and the place of its letter.
 type Leaf = ([Point; 3], Point);
 
 const LEAVES: [Leaf; 5] = [
@@ -18,7 +18,7 @@ const LEAVES: [Leaf; 5] = [
 const EYE: DVec2 = DVec2::new(34.0, 214.0);
 const TOWARDS: DVec2 = DVec2::new(400.0, -44.0);
 
-/// A box of the tree: what it is called, what is in it, and where it stands in the drawing of the tree.
+/// A box of the tree: its name, its contents, and its place in the drawing of the tree.
 struct Place {
     name: &'static str,
     content: Content,
@@ -31,7 +31,7 @@ enum Content {
 }
 use Content::{Leaf as Triangle, Node};
 
-/// What a visit was to: a box, what came of it in words, and the stack afterwards, its top last.
+/// One visit: the box, the result in words, and the stack afterwards, its top last.
 struct Visit {
     of: usize,
     found: String,
@@ -58,7 +58,7 @@ fn tree() -> Vec<Place> {
     ]
 }
 
-/// The box of a place; each level grows by a little, so that walls are seen apart.
+/// The bounding box of a place; each level is a little larger, so that the outlines are distinct.
 fn bounds(tree: &[Place], of: usize) -> [DVec2; 2] {
     let [low, high] = match &tree[of].content {
         Node(children) => {
@@ -77,14 +77,14 @@ fn bounds(tree: &[Place], of: usize) -> [DVec2; 2] {
     [low - 5.0, high + 5.0]
 }
 
-/// Where the ray enters a box, between 0 and `end`.
+/// The point where the ray enters a box, between 0 and `end`.
 fn entered([low, high]: [DVec2; 2], end: f64) -> Option<f64> {
     let (one, other) = ((low - EYE) / TOWARDS, (high - EYE) / TOWARDS);
     let enter = one.min(other).max_element().max(0.0);
     (enter <= one.max(other).min_element().min(end)).then_some(enter)
 }
 
-/// Where the ray meets a triangle of the plane first.
+/// The first intersection of the ray with a triangle.
 fn met(corners: &[Point; 3]) -> Option<f64> {
     let corners = corners.map(DVec2::from_array);
     let hits = (0..3).filter_map(|i| {
@@ -96,7 +96,7 @@ fn met(corners: &[Point; 3]) -> Option<f64> {
     hits.min_by(f64::total_cmp)
 }
 
-/// As `walk.glsl` does it.
+/// As in `walk.glsl`.
 fn walk(tree: &[Place]) -> (Vec<Visit>, f64) {
     let (mut visits, mut stack, mut nearest) = (Vec::new(), Vec::new(), f64::INFINITY);
     let mut next = Some(0);
@@ -203,7 +203,7 @@ fn diagram(s: &mut Sheet, tree: &[Place], visits: &[Visit]) {
     }
 }
 
-/// The scene with the ray, the tree beside it, and each visit with the stack below.
+/// The scene with the ray, the tree next to it, and each visit with the stack below.
 pub fn near_first() -> String {
     let mut s = Sheet::new([840, 508], "A walk: the near box first, the far one on the stack");
     let tree = tree();

@@ -1,8 +1,8 @@
-//! Named parts of a source file: its items, and what stands from a comment line `// ANCHOR: name` to
-//! `// ANCHOR_END: name`.
+//! Named parts of a source file: its items, and the parts between the comment lines `// ANCHOR: name` and `//
+//! ANCHOR_END: name`.
 //!
-//! A function, structure or `impl` is found by its name, so an anchor is needed only for a part of one. The form is
-//! mdBook's; unlike there, a missing anchor is an error.
+//! A function, structure or `impl` is found by its name, so an anchor is only needed for a part of one. The
+//! form is mdBook's; unlike in mdBook, a missing anchor is an error.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::fault::Fault;
 pub struct Anchor {
     /// Its name.
     pub name: String,
-    /// Its lines, from 0, without the two comments around it.
+    /// Its lines, from 0, without the two comments.
     pub lines: Range<usize>,
 }
 
@@ -29,15 +29,15 @@ fn mark(line: &str) -> Option<Mark<'_>> {
     start.or_else(|| comment.strip_prefix("ANCHOR_END:").map(|name| Mark::End(name.trim())))
 }
 
-/// Whether a line only marks where an anchor begins or ends.
+/// True if the line only marks the beginning or end of an anchor.
 pub fn is_mark(line: &str) -> bool {
     mark(line).is_some()
 }
 
-/// Every anchor of a file, in the order of their beginnings.
+/// All anchors of a file, in the order of their beginnings.
 ///
 /// # Errors
-/// If a name is given twice, or one of the two comments is missing.
+/// If a name is used twice, or one of the two comments is missing.
 pub fn anchors(file: &str, text: &str) -> Result<Vec<Anchor>, Fault> {
     let mut found: Vec<Anchor> = Vec::new();
     let mut open: Vec<usize> = Vec::new();
@@ -73,7 +73,8 @@ pub fn anchors(file: &str, text: &str) -> Result<Vec<Anchor>, Fault> {
     Ok(found)
 }
 
-/// Every part of a file: its anchors, and the items that no anchor is named like, the first of each name.
+/// All parts of a file: its anchors, and the items without an anchor of the same name, the first of each
+/// name.
 ///
 /// # Errors
 /// As [`anchors`].
@@ -104,7 +105,7 @@ pub fn parts(file: &str, text: &str) -> Result<Vec<Anchor>, Fault> {
     Ok(found)
 }
 
-/// The name of the item that a line of Rust begins: that of a trait for its `impl`, else that of the type.
+/// The name of the item that begins on a line of Rust: the trait's name for its `impl`, otherwise the type's.
 fn rust_item(line: &str) -> Option<&str> {
     let mut rest = line.trim_start();
     if let Some(visible) = rest.strip_prefix("pub") {
@@ -137,7 +138,7 @@ fn rust_item(line: &str) -> Option<&str> {
     word(rest)
 }
 
-/// The name of the function or structure that a line of GLSL begins.
+/// The name of the function or structure that begins on a line of GLSL.
 fn glsl_item(line: &str) -> Option<&str> {
     if let Some(rest) = line.strip_prefix("struct ") {
         return word(rest);
@@ -155,7 +156,7 @@ fn word(text: &str) -> Option<&str> {
     Some(&text[..end]).filter(|word| !word.is_empty())
 }
 
-/// The text of a part, or of the whole file: without marks, moved to the left as far as it goes.
+/// The text of a part, or of the whole file, without marks and common indentation.
 pub fn part(text: &str, lines: Option<Range<usize>>) -> String {
     let all: Vec<&str> = text.lines().collect();
     let lines = &all[lines.unwrap_or(0..all.len())];
@@ -218,7 +219,7 @@ c
         assert_eq!(of("a.glsl", glsl, "f").unwrap().lines().count(), 5);
         assert_eq!(of("a.glsl", glsl, "G").unwrap(), "struct G {\n    float x;\n};\n");
         assert_eq!(of("a.glsl", glsl, "g"), None);
-        // An anchor of the name goes before.
+        // An anchor takes precedence over an item of the same name.
         let both = format!("// ANCHOR: f\n1\n// ANCHOR_END: f\n{glsl}");
         assert_eq!(of("a.glsl", &both, "f").unwrap(), "1\n");
     }

@@ -1,7 +1,7 @@
-//! What one chapter changes in another: files matched by their role, and their lines compared.
+//! The differences between two chapters: files are matched by their role, and their lines compared.
 //!
-//! A chapter's name is no difference: lines that say `02_basic` here and `03_any_hit` there are equal.
-//! Nor is an anchor: the lines that mark one are left out.
+//! Chapter names do not count as differences: a line with `02_basic` here and `03_any_hit` there is equal.
+//! Neither do anchors: the lines that mark one are left out.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -15,7 +15,7 @@ use crate::page::{Kind, Page};
 use crate::project::{Chapter, Project};
 use crate::shader;
 
-/// Which files of a chapter to compare.
+/// The files of a chapter to compare.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts {
     /// `samples/NN_name/`.
@@ -33,9 +33,9 @@ pub struct Line {
     pub number: usize,
     /// Its text.
     pub text: String,
-    /// Its text for comparisons, in which either chapter's name is the same.
+    /// Its text for comparisons, with either chapter's name replaced.
     pub key: String,
-    /// Whether it only stands elsewhere in the other chapter.
+    /// True if the other chapter has the same line in another place.
     pub moved: bool,
 }
 
@@ -51,15 +51,15 @@ pub struct Side {
 /// A file of two chapters, compared.
 #[derive(Clone, Debug)]
 pub struct FileDiff {
-    /// What both are called, such as `main.rs` or `camera.rgen`.
+    /// The name of both, such as `main.rs` or `camera.rgen`.
     pub role: String,
     /// The older file.
     pub old: Side,
     /// The newer file.
     pub new: Side,
-    /// For a file that both chapters could share: the one that includes it.
+    /// For a shader that both chapters could share: the file that includes it.
     pub included_by: Option<String>,
-    /// How one becomes the other.
+    /// The operations that turn the old file into the new one.
     pub ops: Vec<DiffOp>,
 }
 
@@ -69,18 +69,18 @@ impl FileDiff {
         Self { role: role.to_owned(), old, new, included_by: None, ops }
     }
 
-    /// How many lines are new.
+    /// The number of new lines.
     pub fn added(&self) -> usize {
         self.new_lines().filter(|line| !line.moved).count()
     }
 
-    /// How many lines are gone.
+    /// The number of removed lines.
     pub fn removed(&self) -> usize {
         let lines = self.changes().flat_map(|op| &self.old.lines[op.old_range()]);
         lines.filter(|line| !line.moved).count()
     }
 
-    /// How many lines stood elsewhere before.
+    /// The number of moved lines.
     pub fn moved(&self) -> usize {
         self.new_lines().filter(|line| line.moved).count()
     }
@@ -94,17 +94,17 @@ impl FileDiff {
         self.new.path.as_ref().or(self.old.path.as_ref()).map_or("", String::as_str)
     }
 
-    /// What is not the same in both.
+    /// The operations that change something.
     pub(crate) fn changes(&self) -> impl Iterator<Item = &DiffOp> {
         self.ops.iter().filter(|op| !matches!(op, DiffOp::Equal { .. }))
     }
 
-    /// The part of the comparison that lies in these lines of the newer file, counted from 0.
+    /// The part of the comparison within these lines of the newer file, counted from 0.
     pub fn within(mut self, lines: &Range<usize>) -> Self {
         let inside = |line: &Line| lines.contains(&(line.number - 1));
         let start = self.new.lines.iter().position(inside).unwrap_or(0);
         let end = self.new.lines.iter().rposition(inside).map_or(start, |last| last + 1);
-        // What was removed belongs to the place where it would stand now.
+        // Removed lines belong to the place where they would be now.
         let belongs = |at: usize| start <= at && at < end.max(start + 1);
         let old: BTreeSet<usize> = self
             .ops
@@ -129,7 +129,7 @@ fn compare(old: &[Line], new: &[Line]) -> Vec<DiffOp> {
     capture_diff_slices_by_key(Algorithm::Patience, old, new, |line| line.key.clone())
 }
 
-/// The changes between two files that belong to no chapter.
+/// The changes between two files outside the chapters.
 ///
 /// # Errors
 /// If a file cannot be read.
@@ -157,7 +157,7 @@ pub fn chapters(
             files
         };
         let (old, mut new) = (files(old), files(new));
-        // What the newer chapter takes from the older one stands in the older one's folder, and stays.
+        // A file the newer chapter borrows from the older one is in the older one's folder, and is unchanged.
         let taken = project.with_borrowed(new.clone()).into_iter().skip(new.len());
         new.extend(taken.filter(|file| old.contains(file)));
         diffs.extend(folder(project, &names, &old, &new)?);
@@ -190,10 +190,10 @@ pub fn chapters(
     Ok(diffs)
 }
 
-/// How much of two files must be equal for one to be the other under another name.
+/// The share of equal text above which two files count as one file that was renamed.
 const RENAMED: f64 = 0.8;
 
-/// Makes one comparison of a file that is gone and a file that is new, where they are nearly the same.
+/// Merges the comparisons of a removed and a new file if the two are nearly equal.
 fn renamed(diffs: &mut Vec<FileDiff>) {
     let is_gone = |diff: &FileDiff| diff.new.path.is_none();
     while let Some((gone, new, ops)) = diffs.iter().enumerate().find_map(|(at, gone)| {
@@ -213,7 +213,7 @@ fn renamed(diffs: &mut Vec<FileDiff>) {
     }
 }
 
-/// A page without the code that it shows, which is compared as code.
+/// A page without the code it shows, which is compared as code.
 fn told(project: &Project, path: &str) -> Result<String> {
     let page = Page::parse(path, &project.read(path)?);
     let emptied = |kind| matches!(kind, Kind::Snippet | Kind::Diff).then(String::new);
@@ -227,7 +227,7 @@ fn folder(
     old: &[String],
     new: &[String],
 ) -> Result<Vec<FileDiff>> {
-    // A path below its chapter's folder is the role: samples/02_basic/main.rs is main.rs.
+    // The role is the path below the chapter's folder: samples/02_basic/main.rs is main.rs.
     let role = |path: &String| path.splitn(3, '/').nth(2).unwrap_or_default().to_owned();
     let mut roles: Vec<String> = new.iter().map(role).collect();
     roles.extend(old.iter().map(role).filter(|gone| !new.iter().any(|path| role(path) == *gone)));
@@ -241,7 +241,7 @@ fn folder(
     roles.iter().map(diff).collect()
 }
 
-/// What two chapters are called, to see past it.
+/// The names of two chapters, which are ignored in comparisons.
 struct Names(Vec<String>);
 
 impl Names {
@@ -252,7 +252,7 @@ impl Names {
     fn side(&self, path: &str, text: &str) -> Side {
         let numbered = text.lines().enumerate().filter(|(_, line)| !is_mark(line));
         let lines = numbered.map(|(index, text)| {
-            // No source holds this character.
+            // This character occurs in no source.
             let alike = |key: String, name: &String| key.replace(name, "\u{1}");
             let key = self.0.iter().fold(text.trim_end().to_owned(), alike);
             Line { number: index + 1, text: text.to_owned(), key, moved: false }
@@ -300,7 +300,7 @@ mod tests {
         moved::mark(&mut diffs);
         assert_eq!((diffs[0].added(), diffs[0].removed(), diffs[0].moved()), (0, 0, 0));
         assert_eq!((diffs[1].added(), diffs[1].removed(), diffs[1].moved()), (2, 0, 3));
-        // A bracket or two are no block.
+        // A bracket or two do not count as a moved block.
         let mut diffs = [diff("}\n}\nx\n", "x\n"), diff("y\n", "y\n}\n}\n")];
         moved::mark(&mut diffs);
         assert_eq!((diffs[1].added(), diffs[1].moved()), (2, 0));

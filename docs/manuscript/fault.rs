@@ -1,8 +1,8 @@
-//! Something on a page or in the tree that is not as it should be: where, what, and what to do.
+//! Something wrong on a page or in the tree: the place, the fault, and the remedy.
 
 use std::fmt;
 
-/// What mends everything that is generated.
+/// The remedy for generated parts.
 pub const SYNC: &str = "run: cargo chapters sync";
 
 /// One thing that is wrong, shown as `file:line: what; what to do`.
@@ -12,9 +12,9 @@ pub struct Fault {
     pub file: String,
     /// The line, from 1.
     pub line: usize,
-    /// What is wrong.
+    /// A description of the fault.
     pub what: String,
-    /// What to do.
+    /// The remedy.
     pub remedy: String,
 }
 
@@ -29,7 +29,7 @@ impl Fault {
         Self { file: file.into(), line, what: what.into(), remedy: remedy.into() }
     }
 
-    /// A generated part that is no longer what the code says.
+    /// A fault in a generated part that no longer matches the code.
     pub fn stale(file: impl Into<String>, line: usize, what: impl Into<String>) -> Self {
         Self::new(file, line, what, SYNC)
     }

@@ -1,6 +1,6 @@
-//! What the book is made of: chapters, pages, their source files, and what one chapter changes in another.
+//! The parts of the book: chapters, pages, their source files, and the differences between chapters.
 //!
-//! `chapters` keeps the pages true to the code with it; `site` makes the website of it.
+//! `chapters` uses it to keep the pages consistent with the code; `site` uses it to make the website.
 
 pub mod anchor;
 pub mod diff;

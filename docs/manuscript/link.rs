@@ -2,7 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-/// The file that a page's link leads to, from the project's root; `None` if it leads to the web or stays.
+/// The file a page's link leads to, from the project's root; `None` if it leads to the web or to the page
+/// itself.
 pub fn local(page: &str, target: &str) -> Option<String> {
     let target = target.split(['#', '?']).next().unwrap_or_default();
     let scheme = target.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
@@ -14,7 +15,7 @@ pub fn local(page: &str, target: &str) -> Option<String> {
     for part in Path::new(target).components() {
         match part {
             Component::ParentDir if path.pop() => {}
-            // Above the root there is nothing; the link is kept as one that cannot resolve.
+            // There is nothing above the root; the link is kept as one that cannot be resolved.
             Component::ParentDir => path.push(".."),
             Component::Normal(part) => path.push(part),
             _ => {}

@@ -1,4 +1,4 @@
-//! Lines that only stand elsewhere: gone from one place of a chapter, new in another, also across files.
+//! Moved lines: removed in one place of a chapter and added in another, possibly in another file.
 
 use std::collections::HashMap;
 
@@ -6,13 +6,13 @@ use similar::DiffOp;
 
 use crate::diff::{FileDiff, Line};
 
-/// A block with fewer letters and digits than this may be the same by chance.
+/// A block with fewer letters and digits than this may match by chance.
 const LETTERS: usize = 20;
 
-/// Where a line stands: the file's number, the line's place in it.
+/// The place of a line: the file's number, and the line's index in it.
 type Place = (usize, usize);
 
-/// Marks in all files what has moved: blocks of lines that were removed here and added there, whatever
+/// Marks the moved lines in all files: blocks of lines removed in one place and added in another, whatever
 /// their indentation.
 pub fn mark(diffs: &mut [FileDiff]) {
     let mut removed: HashMap<String, Vec<Place>> = HashMap::new();
@@ -35,13 +35,13 @@ pub fn mark(diffs: &mut [FileDiff]) {
     }
 }
 
-/// The places of lines that are on one side only.
+/// The places of lines that are only on one side.
 fn places(diff: &FileDiff, side: impl Fn(&DiffOp) -> std::ops::Range<usize>) -> Vec<usize> {
     diff.changes().flat_map(side).collect()
 }
 
-/// The longest block at the start of `added` that was removed somewhere as it stands; empty if it says
-/// too little.
+/// The longest block at the start of `added` that was removed elsewhere as a whole; empty if it is too short
+/// to be certain.
 fn longest(
     diffs: &[FileDiff],
     removed: &HashMap<String, Vec<Place>>,
@@ -70,7 +70,7 @@ fn longest(
     if letters >= LETTERS { best } else { Vec::new() }
 }
 
-/// Whether a line of the older file is not in the newer one.
+/// True if a line of the older file is not in the newer one.
 fn gone(diff: &FileDiff, at: usize) -> bool {
     diff.changes().any(|op| op.old_range().contains(&at))
 }

@@ -1,4 +1,4 @@
-//! A page: Markdown, with generated blocks between comments that a code host does not show.
+//! A page: Markdown with generated blocks, between comments that a code host does not show.
 //!
 //! ````markdown
 //! <!-- snippet samples/02_basic/main.rs#trace -->
@@ -23,35 +23,35 @@ use std::ops::Range;
 
 use crate::fault::Fault;
 
-/// What a block shows.
+/// The content of a generated block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A part of a source file: `snippet FILE#ANCHOR`.
     Snippet,
-    /// What one chapter changes in another: `diff OLD NEW FILE#ANCHOR`. Or one file in another: `diff OLD NEW`.
+    /// The changes between two chapters: `diff OLD NEW FILE#ANCHOR`; or between two files: `diff OLD NEW`.
     Diff,
     /// A chapter's controls: `controls NAME`.
     Controls,
-    /// Every chapter's picture, title and line: `gallery`.
+    /// The picture, title and line of every chapter: `gallery`.
     Gallery,
-    /// The ways through the book, or who comes from whom: `map ways`, `map chapters`.
+    /// The ways through the book, or the parents of chapters: `map ways`, `map chapters`.
     Map,
-    /// Every report card that was sent in: `devices`.
+    /// All report cards that were sent in: `devices`.
     Devices,
-    /// Every classic mistake, shown: `mistakes`.
+    /// All classic mistakes: `mistakes`.
     Mistakes,
-    /// The same by what is seen: `symptoms`.
+    /// All classic mistakes by symptom: `symptoms`.
     Symptoms,
     /// A chapter's exercises: `exercises NAME`.
     Exercises,
-    /// Which devices gave the page's figures, and when: `stamp`.
+    /// The devices and dates of the page's figures: `stamp`.
     Stamp,
-    /// Measured values, by the page's template of this name: `table NAME`.
+    /// A table of measured values, from the page's template of this name: `table NAME`.
     Table,
 }
 
 impl Kind {
-    /// Each with the word in its marker, what a reader would call it, and the marker's form.
+    /// Each with the word in its marker, a noun for messages, and the marker's arguments.
     const ALL: [(Self, &str, &str, &str); 11] = [
         (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
         (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
@@ -75,12 +75,12 @@ impl Kind {
         Self::ALL[self as usize].1
     }
 
-    /// What a reader would call it.
+    /// A noun for messages.
     pub fn noun(self) -> &'static str {
         Self::ALL[self as usize].2
     }
 
-    /// How the marker is written.
+    /// The form of the marker.
     pub fn form(self) -> String {
         format!("<!-- {} {}", self.word(), Self::ALL[self as usize].3)
     }
@@ -89,7 +89,7 @@ impl Kind {
 /// A generated block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
-    /// What it shows.
+    /// The content.
     pub kind: Kind,
     /// The words after the kind.
     pub words: Vec<String>,
@@ -106,13 +106,13 @@ pub struct PictureMark {
     pub line: usize,
     /// The picture's name, where it is not the page's.
     pub name: Option<String>,
-    /// The step of the reader's own program after which it is made: `picture NAME STEP`.
+    /// The step of the reader's own program after which it is rendered: `picture NAME STEP`.
     pub step: Option<String>,
-    /// What the fenced block below it says.
+    /// The text of the fenced block below it.
     pub command: String,
 }
 
-/// A page, read.
+/// A parsed page.
 pub struct Page {
     /// Its path, from the project's root.
     pub path: String,
@@ -122,12 +122,12 @@ pub struct Page {
     pub blocks: Vec<Block>,
     /// Its pictures' commands.
     pub pictures: Vec<PictureMark>,
-    /// What is wrong with its markers.
+    /// The faults of its markers.
     pub faults: Vec<Fault>,
 }
 
 impl Page {
-    /// Reads a page's markers; those inside fenced blocks are examples and count for nothing.
+    /// Parses a page's markers, except for those inside fenced blocks, which are examples.
     pub fn parse(path: &str, text: &str) -> Self {
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();
         let mut page =
@@ -144,7 +144,7 @@ impl Page {
         page
     }
 
-    /// Takes in the marker on a line, if there is one, and returns the line to go on with.
+    /// Parses the marker on a line, if there is one, and returns the line to continue with.
     fn marker_at(&mut self, index: usize) -> usize {
         let Some(words) = marker(&self.lines[index]) else { return index + 1 };
         let line = index + 1;
@@ -173,7 +173,8 @@ impl Page {
         let Some(kind) = Kind::named(word) else {
             return line;
         };
-        // Not fences but markers end a block, so that one with a lost fence can still be mended.
+        // A block ends at its marker rather than its fence, so that one with a lost fence can still be
+        // repaired.
         let closer = format!("/{word}");
         let following = self.lines[line..].iter().map(|line| marker(line));
         let close = following.clone().position(|words| words == Some(&*closer));
@@ -193,7 +194,7 @@ impl Page {
         self.path.rsplit('/').next().unwrap_or_default().trim_end_matches(".md")
     }
 
-    /// The page with other bodies in its blocks; `None`, or nothing, leaves one as it is.
+    /// The page with new bodies in its blocks; a block with `None`, or without an entry, is unchanged.
     pub fn with_bodies(&self, bodies: &[Option<String>]) -> String {
         let mut text = String::new();
         let mut copied = 0;
@@ -208,19 +209,19 @@ impl Page {
         text
     }
 
-    /// What an author wrote: the page's text with every generated line left empty.
+    /// The author's text: the page with every generated line left empty.
     pub fn written(&self) -> String {
         let generated = |index: usize| self.blocks.iter().any(|block| block.body.contains(&index));
         let line = |(index, line)| if generated(index) { "\n".to_owned() } else { line };
         ended(&self.lines).enumerate().map(line).collect()
     }
 
-    /// The page with other words in some places of what its author wrote, none of which is in two lines.
+    /// The page with some places of the author's text replaced, none of which spans two lines.
     pub fn edited(&self, mut changes: Vec<(Range<usize>, String)>) -> Self {
         let text = self.written();
         let mut lines = self.lines.clone();
         changes.sort_by_key(|(span, _)| span.start);
-        // From the end: a change moves only text behind it, which is done.
+        // From the end, because a change moves the text after it.
         for (span, new) in changes.into_iter().rev() {
             let before = &text[..span.start];
             let start = before.rfind('\n').map_or(0, |at| at + 1);
@@ -230,7 +231,8 @@ impl Page {
         Self::parse(&self.path, &ended(&lines).collect::<String>())
     }
 
-    /// The page's text, each line with its number from 1: without what is generated, markers and fenced blocks.
+    /// The page's prose, each line with its number from 1: without generated lines, markers and fenced
+    /// blocks.
     pub fn prose(&self) -> Vec<(usize, &str)> {
         let mut found = Vec::new();
         let mut index = 0;
@@ -250,7 +252,7 @@ fn ended(lines: &[String]) -> impl Iterator<Item = String> {
     lines.iter().map(|line| format!("{line}\n"))
 }
 
-/// What a comment that fills a line says.
+/// The contents of a comment that fills a line.
 fn marker(line: &str) -> Option<&str> {
     Some(line.trim().strip_prefix("<!--")?.strip_suffix("-->")?.trim())
 }
@@ -259,7 +261,7 @@ fn opens(words: &str) -> bool {
     words.split_whitespace().next().and_then(Kind::named).is_some()
 }
 
-/// The line after the fenced block that begins on line `start`; `start` itself if none does.
+/// The line after the fenced block that begins on line `start`; `start` itself if there is no such block.
 fn fence_end(lines: &[String], start: usize) -> usize {
     let fence = |line: &str| {
         let line = line.trim_start();

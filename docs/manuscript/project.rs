@@ -1,4 +1,4 @@
-//! The project: its root, what `Cargo.toml` says of the chapters, and its files.
+//! The project: its root, the chapters described in `Cargo.toml`, and its files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
 
-/// One chapter, as `[package.metadata.chapters.NN_name]` describes it.
+/// One chapter, as described by `[package.metadata.chapters.NN_name]`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chapter {
@@ -18,20 +18,20 @@ pub struct Chapter {
     pub name: String,
     /// Its title, such as `Basic`.
     pub title: String,
-    /// What it teaches, in a line.
+    /// Its lesson, in one line.
     pub teaches: String,
-    /// The part of the book that it belongs to, by title.
+    /// The title of its part of the book.
     #[serde(default)]
     pub part: String,
     /// The chapter that it builds on.
     pub from: Option<String>,
-    /// What it needs of the device beyond the baseline.
+    /// Its requirements of the device beyond the baseline.
     #[serde(default)]
     pub needs: Vec<String>,
-    /// The arguments of its golden picture, the size apart.
+    /// The arguments of its golden picture, except for the size.
     #[serde(default, skip_serializing)]
     pub golden: Vec<String>,
-    /// The size of its golden picture, where that is another than most chapters'.
+    /// The size of its golden picture, if it differs from most chapters'.
     #[serde(default, skip_serializing)]
     pub golden_size: Option<String>,
     /// The effects that it adds to chapter 25's table, by name.
@@ -45,7 +45,7 @@ impl Chapter {
         self.name.split('_').next().unwrap_or_default()
     }
 
-    /// The name without the number, which is what its tests' module is called.
+    /// The name without the number, which is also the name of its tests' module.
     pub fn module(&self) -> &str {
         self.name.split_once('_').map_or("", |(_, module)| module)
     }
@@ -82,7 +82,7 @@ impl Chapter {
 pub struct Way {
     /// Its title, in a word.
     pub title: String,
-    /// What it gives, in a line.
+    /// Its benefit, in one line.
     pub gives: String,
     /// The numbers of its chapters, in order.
     pub chapters: Vec<String>,
@@ -98,7 +98,7 @@ pub struct Target {
     pub path: String,
 }
 
-/// A chapter that is asked for and is not there: a line that lists those that are.
+/// A requested chapter that does not exist: a line that lists the existing ones.
 #[derive(Debug)]
 pub struct Unknown(pub String);
 
@@ -112,7 +112,7 @@ impl std::error::Error for Unknown {}
 
 /// A project on disk. Paths are text, from the root, with `/` on every system.
 pub struct Project {
-    /// Where it lies.
+    /// Its folder.
     pub root: PathBuf,
     /// The text of `Cargo.toml`.
     pub manifest: String,
@@ -128,7 +128,7 @@ pub struct Project {
     pub bins: Vec<Target>,
     /// The test programs of all packages.
     pub tests: Vec<Target>,
-    /// What `cargo run` alone runs.
+    /// The program run by plain `cargo run`.
     pub default_run: Option<String>,
 }
 
@@ -136,7 +136,7 @@ impl Project {
     /// Reads the project in the folder `root`.
     ///
     /// # Errors
-    /// If a `Cargo.toml` is missing, or says what it should not.
+    /// If a `Cargo.toml` is missing or invalid.
     pub fn open(root: &Path) -> Result<Self> {
         let manifest = read(&root.join("Cargo.toml")).with_context(|| {
             format!("'{}' is not the project's folder, which --root names", root.display())
@@ -182,10 +182,10 @@ impl Project {
         })
     }
 
-    /// The chapter that a reader means by `02`, `2`, `basic` or `02_basic`.
+    /// The chapter a reader means by `02`, `2`, `basic` or `02_basic`.
     ///
     /// # Errors
-    /// If there is none; the line lists those that there are.
+    /// If there is none; the message lists the existing ones.
     pub fn chapter(&self, given: &str) -> Result<&Chapter, Unknown> {
         let number = |text: &str| text.parse::<u32>().ok();
         let meant = |chapter: &&Chapter| {
@@ -208,10 +208,10 @@ impl Project {
         self.chapters.iter().find(|chapter| chapter.page() == path)
     }
 
-    /// Whether a chapter builds on another, directly or not.
+    /// Returns whether a chapter builds on another, directly or not.
     pub fn descends(&self, chapter: &Chapter, other: &Chapter) -> bool {
         let mut parent = chapter.from.as_deref();
-        // No line of parents is longer than the list of chapters, unless it is a circle.
+        // A line of parents is no longer than the list of chapters, unless it is circular.
         for _ in &self.chapters {
             let Some(name) = parent else { return false };
             if name == other.name {
@@ -222,8 +222,8 @@ impl Project {
         false
     }
 
-    /// The parts with their headings, such as `I · Make it`, and chapters; a book without parts is one
-    /// part with no heading, and so are chapters of no part.
+    /// The parts with their headings, such as `I · Make it`, and chapters. A book without parts is one part
+    /// without a heading, and so are chapters without a part.
     pub fn parted(&self) -> Vec<(String, Vec<&Chapter>)> {
         let number = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"];
         let heading = |(title, number): (&String, &str)| format!("{number} · {title}");
@@ -237,8 +237,8 @@ impl Project {
         parts
     }
 
-    /// Every chapter below the one that it builds on, in the order of the book, each with the number of those that
-    /// it descends from.
+    /// All chapters, each below the one it builds on, in the order of the book, with the number of its
+    /// ancestors.
     pub fn tree(&self) -> Vec<(usize, &Chapter)> {
         let parted = self.parted();
         let ordered = || parted.iter().flat_map(|(_, chapters)| chapters).rev();
@@ -254,7 +254,7 @@ impl Project {
         tree
     }
 
-    /// The text of a file, its lines ended by `\n` alone.
+    /// The text of a file, with `\n` line endings.
     ///
     /// # Errors
     /// If it cannot be read, or is not UTF-8.
@@ -262,12 +262,12 @@ impl Project {
         read(&self.root.join(path))
     }
 
-    /// Whether there is such a file.
+    /// Returns whether the file exists.
     pub fn has(&self, path: &str) -> bool {
         self.root.join(path).is_file()
     }
 
-    /// Every file below a folder, in order; hidden ones are nobody's business. None if there is no folder.
+    /// All files below a folder, in order, without hidden ones. Empty if there is no folder.
     pub fn files(&self, folder: &str) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.root.join(folder)) else { return Vec::new() };
         let mut names: Vec<String> = entries
@@ -286,7 +286,7 @@ impl Project {
             .collect()
     }
 
-    /// Files of a chapter and those of other chapters that it takes by `#[path = "…"]`.
+    /// Adds the files of other chapters that a chapter's files borrow by `#[path = "…"]`.
     pub fn with_borrowed(&self, mut files: Vec<String>) -> Vec<String> {
         let mut next = 0;
         while let Some(file) = files.get(next).cloned() {
@@ -307,7 +307,7 @@ impl Project {
         files
     }
 
-    /// Every page: the README and what lies in `docs/`, but not the generated summary.
+    /// All pages: the README and those in `docs/`, without the generated summary.
     pub fn pages(&self) -> Vec<String> {
         let mut pages = self.files("docs");
         let folders = ["docs", &format!("docs/{MEASUREMENTS}")];
@@ -321,12 +321,12 @@ impl Project {
         pages
     }
 
-    /// Whether a chapter is a package of its own, with dependencies and a test program that no other needs.
+    /// Returns whether a chapter is a separate package, with its own dependencies and test program.
     pub fn has_own_package(&self, chapter: &Chapter) -> bool {
         self.has(&format!("samples/{}/Cargo.toml", chapter.name))
     }
 
-    /// The line of `Cargo.toml` on which `text` stands, from 1; 1 if it does not.
+    /// The line of `Cargo.toml` that contains `text`, from 1; 1 if none does.
     pub fn manifest_line(&self, text: &str) -> usize {
         self.manifest.lines().position(|line| line.trim() == text).map_or(1, |index| index + 1)
     }
@@ -342,7 +342,7 @@ pub const README: &str = "README.md";
 
 /// mdBook's table of contents.
 pub const SUMMARY: &str = "docs/SUMMARY.md";
-/// The folder below `docs` of the pages that hold chapters' further tables.
+/// The folder below `docs` of the pages with chapters' further tables.
 pub const MEASUREMENTS: &str = "measurements";
 
 #[derive(Deserialize)]
@@ -362,7 +362,7 @@ struct Workspace {
     members: Vec<String>,
 }
 
-/// What the manifest of another package of the project says.
+/// The relevant parts of another package's manifest.
 #[derive(Deserialize)]
 struct Targets {
     lib: Option<Library>,
@@ -372,7 +372,7 @@ struct Targets {
     test: Vec<Target>,
 }
 
-/// A library, which needs no name of its own.
+/// A library, whose name is optional.
 #[derive(Deserialize)]
 struct Library {
     #[serde(default)]

@@ -1,25 +1,25 @@
-//! Shader sources: which files a shader includes, and which a chapter is made of.
+//! Shader sources: the files a shader includes, and the shaders of a chapter.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::project::{Chapter, Project};
 
-/// What a shader file's extension may be, in the order in which a ray meets the stages.
+/// The possible extensions of a shader file, in the order in which a ray meets the stages.
 pub const EXTENSIONS: [&str; 10] =
     ["rgen", "rmiss", "rchit", "rahit", "rint", "rcall", "comp", "vert", "frag", "glsl"];
 
-/// The files that a shader includes itself, from the project's root.
+/// The files a shader includes directly, from the project's root.
 ///
-/// As the compiler finds them: beside the file, else below `shaders/`. Those that do not exist are left
-/// out; compiling names them better.
+/// They are found as by the compiler: next to the file, or else below `shaders/`. Missing files are left out;
+/// the compiler reports them better.
 pub fn includes(project: &Project, file: &str) -> Vec<String> {
     let text = project.read(file).unwrap_or_default();
     let found = text.lines().filter_map(|line| included(line, file, |path| project.has(path)));
     found.collect()
 }
 
-/// A shader's text as it is compiled: what it includes stands in the place of the line that includes it,
-/// once, and `#line` tells which is which. `read` tells what a file holds, from the project's root.
+/// A shader's text as it is compiled: each included file once, in place of the line that includes it, with
+/// `#line` directives. `read` returns the contents of a file, given from the project's root.
 pub fn spliced(read: &dyn Fn(&str) -> Option<String>, file: &str) -> String {
     fn splice(
         read: &dyn Fn(&str) -> Option<String>,
@@ -49,7 +49,7 @@ pub fn spliced(read: &dyn Fn(&str) -> Option<String>, file: &str) -> String {
     text
 }
 
-/// The file that a line of `file` includes, if it does.
+/// The file included by a line of `file`, if it includes one.
 fn included(line: &str, file: &str, is_there: impl Fn(&str) -> bool) -> Option<String> {
     let name = line.trim_start().strip_prefix("#include")?.trim().trim_matches(['"', '<', '>']);
     let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
@@ -66,7 +66,7 @@ pub fn own(project: &Project, chapter: &Chapter) -> Vec<String> {
     files
 }
 
-/// The shaders that a chapter takes from elsewhere, directly or not, each with a file that names or includes it.
+/// The shaders a chapter uses from elsewhere, directly or not, each with a file that names or includes it.
 pub fn shared(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> {
     let own = own(project, chapter);
     let mut found = named(project, chapter);
@@ -83,7 +83,7 @@ pub fn shared(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> 
     found
 }
 
-/// The stages of `shaders/common` that a chapter's program names, each with the source that does so.
+/// The stages of `shaders/common` used by a chapter's program, each with the source that names it.
 fn named(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> {
     let stages: Vec<String> = project
         .files("shaders/common")
@@ -101,7 +101,7 @@ fn named(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> {
     found
 }
 
-/// The language of a file, as fenced blocks call it.
+/// The language of a file, as written on fenced blocks.
 pub fn language(path: &str) -> &'static str {
     match path.rsplit_once('.').map_or("", |(_, extension)| extension) {
         "rs" => "rust",

@@ -1,17 +1,17 @@
-//! Colours for code, given when the site is made: no script has to find them in the reader's browser, and
-//! GLSL is among the languages.
+//! Syntax colours, computed when the site is built: no script has to run in the reader's browser, and GLSL is
+//! supported.
 
-/// What is told apart in a language.
+/// The features of a language that are coloured.
 struct Language {
     line_comments: &'static [&'static str],
     block_comments: bool,
-    /// With a blank between two.
+    /// The keywords, separated by blanks.
     keywords: &'static str,
-    /// Whether a line that begins with `#` is the preprocessor's.
+    /// True if a line that begins with `#` is a preprocessor directive.
     directives: bool,
-    /// Whether `'a` may be a lifetime, and `r#"…"#` a string.
+    /// True if `'a` may be a lifetime, and `r#"…"#` a string.
     rust: bool,
-    /// Whether numbers and types are told apart, too.
+    /// True if numbers and types have colours of their own.
     words: bool,
 }
 
@@ -47,7 +47,7 @@ const SHELL: Language = Language {
     words: false,
 };
 
-/// The lines of a text as HTML, coloured; no tag goes from one line to the next.
+/// The lines of a text as HTML, coloured; no tag spans two lines.
 pub fn lines(language: &str, text: &str) -> Vec<String> {
     match language {
         "rust" => by_word(&RUST, text),
@@ -58,7 +58,7 @@ pub fn lines(language: &str, text: &str) -> Vec<String> {
     }
 }
 
-/// A text as it stands in HTML.
+/// A text escaped for HTML.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -105,7 +105,7 @@ fn by_word(language: &Language, text: &str) -> Vec<String> {
     lines
 }
 
-/// The class and the length of what a text begins with.
+/// The class and the length of the token at the start of a text.
 fn token(language: &Language, text: &str, begins: bool) -> (&'static str, usize) {
     let first = text.chars().next().unwrap_or(' ');
     let to_end = |end: &str| text.find(end).unwrap_or(text.len());
@@ -167,7 +167,7 @@ fn token(language: &Language, text: &str, begins: bool) -> (&'static str, usize)
     ("", end.max(first.len_utf8()))
 }
 
-/// `vec3`, `uvec2`, `mat4x3` and their like.
+/// True for `vec3`, `uvec2`, `mat4x3` and the like.
 fn is_glsl_type(language: &Language, word: &str) -> bool {
     let stem = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
     language.directives

@@ -1,4 +1,4 @@
-//! The order of the pages: what `docs/SUMMARY.md` lists, with the README before it.
+//! The order of the pages: those listed in `docs/SUMMARY.md`, with the README before them.
 
 use anyhow::Result;
 use manuscript::fault::Fault;
@@ -7,7 +7,7 @@ use manuscript::project::{MEASUREMENTS, Project, README, SUMMARY};
 /// A page of the site.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// What the contents call it.
+    /// Its title in the contents.
     pub title: String,
     /// Its file, from the project's root.
     pub file: String,
@@ -23,7 +23,7 @@ impl Entry {
         Self { title: title.to_owned(), file: file.to_owned(), name: name.to_owned(), part }
     }
 
-    /// Whether it holds a chapter's further tables: who reads on leaves it out.
+    /// True for a page with a chapter's further tables, which is outside the reading order.
     pub fn is_apart(&self) -> bool {
         self.file.starts_with(&format!("docs/{MEASUREMENTS}/"))
     }
@@ -34,10 +34,10 @@ impl Entry {
     }
 }
 
-/// All pages in the order in which they are read.
+/// All pages in reading order.
 ///
 /// # Errors
-/// If a line of the summary is no heading and no link, with the line.
+/// If a line of the summary is neither a heading nor a link; the message has the line.
 pub fn read(project: &Project) -> Result<Vec<Entry>> {
     let mut entries = Vec::new();
     if project.has(README) {
@@ -53,7 +53,7 @@ pub fn read(project: &Project) -> Result<Vec<Entry>> {
         if line.is_empty() {
             continue;
         }
-        // A link that is no item of a list stands before or after the parts. An item may stand below another.
+        // A link outside a list is before or after the parts. Items may be nested.
         let line = line.trim_start();
         if !line.starts_with("- ") {
             part = None;
@@ -71,7 +71,7 @@ pub fn read(project: &Project) -> Result<Vec<Entry>> {
             let what = format!("'{file}' does not exist");
             return Err(Fault::new(SUMMARY, index + 1, what, "run: cargo chapters sync").error());
         }
-        // All pages of the site lie in one folder.
+        // All pages of the site are in one folder.
         entries.push(Entry::new(title, &file, &name.replace('/', "-"), part.as_deref()));
     }
     for (title, file, name) in [

@@ -1,4 +1,4 @@
-//! Figures that one can touch: a script draws them, from the chapters' own shaders where there are any.
+//! Interactive figures: a script draws them, with the chapters' own shaders if possible.
 //!
 //! `<!-- touch NAME: CONTROLS -->`, on one line or more, stands above a picture, which is shown where no script runs. NAME is
 //! `docs/site/interactive/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU, and `NAME.txt` if it
@@ -15,10 +15,10 @@ use manuscript::project::Project;
 
 use crate::color::escaped;
 
-/// What all figures share, as the site has it.
+/// The script shared by all figures.
 pub const FRAME: (&str, &str) = ("figure.js", include_str!("figure.js"));
 
-/// Where figures lie.
+/// The folder of the figures.
 const FOLDER: &str = "docs/site/interactive";
 
 /// The file of a figure's script on the site.
@@ -26,10 +26,10 @@ pub fn address(name: &str) -> String {
     format!("figure-{name}.js")
 }
 
-/// What a mark says: the figure's name and its HTML in one line, around its picture.
+/// Parses a mark: returns the figure's name and its HTML in one line, around its picture.
 ///
 /// # Errors
-/// What is wrong with the mark.
+/// The fault of the mark.
 pub fn html(
     project: &Project,
     mark: &str,
@@ -50,7 +50,7 @@ pub fn html(
     Ok((name.to_owned(), html))
 }
 
-/// The end of a page that has figures: their scripts.
+/// The end of a page with figures: their scripts.
 pub fn scripts<'a>(names: impl Iterator<Item = &'a String>) -> String {
     let files: Vec<String> = names.map(|name| address(name)).collect();
     let all = files.iter().map(String::as_str);
@@ -59,7 +59,7 @@ pub fn scripts<'a>(names: impl Iterator<Item = &'a String>) -> String {
     tags.map(|file| format!("\n\n<script src=\"{file}\" defer></script>")).collect()
 }
 
-/// A script without its indents and its lines of comment.
+/// A script without indents and comment lines.
 pub fn bare(script: &str) -> String {
     let lines = script.lines().map(str::trim_start);
     lines
@@ -68,7 +68,7 @@ pub fn bare(script: &str) -> String {
         .collect()
 }
 
-/// A figure's script, with its shader and what is stored for it above, or what is wrong with the shader.
+/// A figure's script, preceded by its shader and stored values, or the faults of the shader.
 ///
 /// # Errors
 /// If a file cannot be read.
@@ -84,7 +84,7 @@ pub fn script(project: &Project, name: &str) -> Result<Result<String, Vec<Fault>
         return Ok(Ok(own));
     }
     let read = |path: &str| project.has(path).then(|| project.read(path).ok()).flatten();
-    // GLSL has neither of the two signs that would end the text.
+    // GLSL contains neither of the two characters that would end the text.
     Ok(shader::translated(&read, &file)
         .map(|text| format!("figures.shaders[\"{name}\"] = `{text}`;\n\n{own}")))
 }

@@ -1,11 +1,11 @@
-//! Formulas: TeX in, MathML Core out, which browsers draw without a script and without a network.
+//! Formulas: converts TeX to MathML Core, which browsers draw without scripts or a network.
 
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
 /// A formula as MathML that is safe in a line of Markdown, also in a table's cell.
 ///
 /// # Errors
-/// What the formula has that cannot be drawn.
+/// The part of the formula that cannot be drawn.
 pub fn mathml(tex: &str, display: bool) -> Result<String, String> {
     let converter = LatexToMathML::new(MathCoreConfig::default())
         .map_err(|_| "the converter has no macros to parse".to_owned())?;
@@ -14,7 +14,7 @@ pub fn mathml(tex: &str, display: bool) -> Result<String, String> {
         .convert_with_local_state(tex, display)
         .map_err(|error| error.to_string().replace('\n', " "))?;
     let html = shielded(&converted.mathml);
-    // One that is wider than its column scrolls in its own box.
+    // A formula wider than its column scrolls in its own box.
     Ok(if matches!(display, MathDisplay::Block) {
         format!("<span class=\"formula\">{html}</span>")
     } else {
@@ -22,7 +22,7 @@ pub fn mathml(tex: &str, display: bool) -> Result<String, String> {
     })
 }
 
-/// Letters between tags as references where Markdown might take them for its own.
+/// Escapes characters between tags that Markdown might interpret.
 fn shielded(html: &str) -> String {
     let mut shielded = String::with_capacity(2 * html.len());
     let mut in_tag = false;

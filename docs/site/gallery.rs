@@ -1,4 +1,4 @@
-//! The gallery of the front page: a card for each chapter, which a phone shows one below the other.
+//! The gallery of the front page: one card per chapter, stacked on a phone.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

@@ -1,17 +1,17 @@
-//! Finished pages, read again: which places, links and sources they have.
+//! Reads finished pages, to find their ids, links and sources.
 
-/// A tag's attribute, wherever it stands.
+/// An attribute of a tag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Attribute {
     /// The tag's name.
     pub tag: String,
     /// The attribute's name.
     pub name: String,
-    /// Its value, references resolved.
+    /// Its value, with references resolved.
     pub value: String,
 }
 
-/// Every attribute of a page with a value, in order; scripts and comments have none.
+/// All attributes of a page that have a value, in order; scripts and comments are skipped.
 pub fn attributes(html: &str) -> Vec<Attribute> {
     let mut found = Vec::new();
     let mut rest = html;

@@ -1,8 +1,8 @@
-//! The book as a website, made by mdBook from the pages as they stand in `docs/`.
+//! The book as a website, made by mdBook from the pages in `docs/`.
 //!
-//! [`contents`] gives the order, [`page`] composes each page for mdBook ([`formula`], [`color`], [`slider`],
-//! [`figure`], [`gallery`]; [`link`] says where its links lead), [`listing`] the pages of code. [`output`]
-//! puts the site in its place when all of it is right. [`moved`] leads on from old addresses.
+//! [`contents`] gives the order. [`page`] composes each page for mdBook ([`formula`], [`color`], [`slider`],
+//! [`figure`], [`gallery`]; [`link`] resolves its links), and [`listing`] the pages of code. [`output`] puts
+//! the site in its place when all of it is right. [`moved`] redirects from old addresses.
 
 pub mod color;
 pub mod contents;
@@ -32,24 +32,24 @@ use mdbook_driver::config::Config;
 use contents::Entry;
 use link::Wanted;
 
-/// What of a site is counted.
+/// The counts of a site.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
     /// Pages of the book.
     pub pages: usize,
     /// Pages of code.
     pub code: usize,
-    /// Pictures, panels that are cut and small ones among them.
+    /// Pictures, including cut panels and thumbnails.
     pub pictures: usize,
     /// Formulas.
     pub formulas: usize,
     /// Sliders.
     pub sliders: usize,
-    /// Figures that one can touch.
+    /// Interactive figures.
     pub figures: usize,
 }
 
-/// Everything that is wrong with the pages, a line each.
+/// The faults of the pages, one line each.
 #[derive(Debug)]
 pub struct Faults(pub Vec<Fault>);
 
@@ -65,17 +65,17 @@ impl std::error::Error for Faults {}
 /// mdBook's settings.
 const SETTINGS: &str = include_str!("book.toml");
 
-/// What is added to mdBook's own pages.
+/// The files added to mdBook's own pages.
 const ADDED: [(&str, &str); 2] =
     [("site.css", include_str!("site.css")), ("site.js", include_str!("site.js"))];
 
-/// What a server shows where there is no page: mdBook's own would have to be told where the site lies.
+/// The page a server shows for a missing page. mdBook's own page would need the site's address.
 const LOST: &str = include_str!("404.html");
 
 /// Builds the site of the project in `root`, in the folder `made`, which does not exist yet.
 ///
 /// # Errors
-/// If a file cannot be read or written; [`Faults`] if something on the pages is wrong.
+/// If a file cannot be read or written; [`Faults`] if there are faults on the pages.
 pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let project = Project::open(root)?;
     let entries = contents::read(&project)?;
@@ -129,7 +129,7 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
 
     let mut settings = SETTINGS.to_owned();
     for name in codes.keys() {
-        // A search should find what is explained.
+        // A search should find the explanation.
         let _ =
             write!(settings, "\n[output.html.search.chapter.'{name}-code.md']\nenable = false\n");
     }
@@ -139,7 +139,7 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let moved = moved::read(&project, &entries)?;
     config.set("output.html.redirect", moved::redirects(&moved))?;
     wanted.extend(moved::wanted(&moved));
-    // mdBook would go on with its own settings.
+    // Otherwise mdBook would use its own settings.
     config
         .html_config()
         .context("docs/site/book.toml: [output.html] has what mdBook does not know")?;
@@ -159,7 +159,7 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     if faults.is_empty() { Ok(counts) } else { Err(Faults(faults).into()) }
 }
 
-/// mdBook's table of contents: a page's code is an item below it.
+/// mdBook's table of contents: a page's code is an item below the page.
 fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String>) -> String {
     let (mut text, mut last) = (String::from("# Summary\n"), String::new());
     let mut part = None;
@@ -168,7 +168,7 @@ fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String
             part.clone_from(&entry.part);
             let _ = writeln!(text, "\n# {}\n", part.as_deref().unwrap_or("To look up"));
         }
-        // Before the first part mdBook takes no lists: what would stand below an item stands last.
+        // Before the first part mdBook accepts no lists, so the item comes last.
         let numbered = text.contains("\n# ");
         let item = format!("[{}]({}.md)", entry.title, entry.name);
         let _ = if numbered { writeln!(text, "- {item}") } else { writeln!(text, "\n{item}") };
@@ -185,7 +185,7 @@ fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String
     text + &last
 }
 
-/// The links behind a page: to its code, to the page before and the page after.
+/// The links at the end of a page: to its code, to the previous and the next page.
 fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> String {
     let [before, after] = neighbours(entries, entry);
     let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
@@ -203,14 +203,14 @@ fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> St
     html + "</nav>\n"
 }
 
-/// The pages that one reads before and after a page.
+/// The previous and the next page in reading order.
 fn neighbours<'a>(entries: &'a [Entry], entry: &Entry) -> [Option<&'a Entry>; 2] {
     let at = entries.iter().position(|other| other == entry).unwrap_or(0);
     let is_read = |other: &&Entry| !other.is_apart();
     [entries[..at].iter().rfind(is_read), entries[at + 1..].iter().find(is_read)]
 }
 
-/// The links behind a page of code: back to its page, and to the next page.
+/// The links at the end of a page of code: back to its page, and to the next page.
 fn behind(entries: &[Entry], entry: &Entry) -> String {
     let [_, after] = neighbours(entries, entry);
     let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
@@ -233,7 +233,7 @@ fn step(class: &str, to: Option<&Entry>, from: &Entry) -> String {
     )
 }
 
-/// The links that lead nowhere, now that the site is there.
+/// The links without a target in the finished site.
 fn broken(made: &Path, wanted: &[Wanted]) -> Result<Vec<Fault>> {
     let mut places: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     let mut faults = Vec::new();
@@ -255,7 +255,7 @@ fn broken(made: &Path, wanted: &[Wanted]) -> Result<Vec<Fault>> {
     Ok(faults)
 }
 
-/// The places of a page.
+/// The ids of a page.
 fn ids(page: &str) -> BTreeSet<String> {
     let ids = html::attributes(page).into_iter().filter(|attribute| attribute.name == "id");
     ids.map(|attribute| attribute.value).collect()

@@ -1,38 +1,38 @@
-//! Where a page's links lead on the site.
+//! The targets of a page's links on the site.
 
 use manuscript::link::local;
 use manuscript::project::{Chapter, Project, README};
 
 use crate::contents::Entry;
 
-/// Where a link leads.
+/// The target of a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
     /// Out of the site.
     Web,
-    /// To an address of the site.
+    /// An address of the site.
     Site(String),
-    /// To a file that is no page, from the project's root.
+    /// A file that is not a page, from the project's root.
     File(String),
 }
 
-/// A place of the site that must exist, and who leads there.
+/// A place of the site that must exist, and the page that links to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wanted {
     /// The page's file, from the project's root.
     pub file: String,
     /// Its line, from 1.
     pub line: usize,
-    /// The address of the page it leads to.
+    /// The address of the linked page.
     pub page: String,
-    /// The place on it.
+    /// The id on it.
     pub id: Option<String>,
 }
 
-/// Where a link of a page leads.
+/// The target of a link of a page.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The fault of the link.
 pub fn resolve(
     project: &Project,
     entries: &[Entry],
@@ -57,7 +57,7 @@ pub fn resolve(
     }
 }
 
-/// The chapter in whose folders a file lies.
+/// The chapter that owns a file.
 pub fn own<'a>(project: &'a Project, file: &str) -> Option<&'a Chapter> {
     let mut parts = file.split('/');
     let folder = parts.next()?;
@@ -67,7 +67,7 @@ pub fn own<'a>(project: &'a Project, file: &str) -> Option<&'a Chapter> {
     project.chapters.iter().find(|chapter| here && chapter.name == name)
 }
 
-/// The address where a file is shown: with the code of its chapter, else with that of the page itself.
+/// The address where a file is shown: with the code of its chapter, or else with that of the page itself.
 pub fn shown(
     project: &Project,
     entries: &[Entry],
@@ -86,7 +86,7 @@ pub fn code_name(entry: &Entry) -> String {
     format!("{}-code", entry.name)
 }
 
-/// The place of a file on the page that shows it.
+/// The id of a file on the page that shows it.
 pub fn id(file: &str) -> String {
     file.replace(|c: char| !c.is_ascii_alphanumeric() && c != '_', "-")
 }

@@ -1,5 +1,5 @@
-//! A page of code: each file of a chapter with its line numbers, and beside each change what stands in the
-//! chapter that it builds on.
+//! A page of code: each file of a chapter with line numbers, and each change next to the lines of the parent
+//! chapter.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -15,10 +15,10 @@ use crate::color::{self, escaped};
 use crate::contents::Entry;
 use crate::link;
 
-/// The code of a page as Markdown: its chapter's, and other files that it shows; `None` if it has neither.
+/// The code of a page as Markdown: its chapter's, and other files it shows; `None` if it has neither.
 ///
 /// # Errors
-/// If a file cannot be read, or its anchors are not in order.
+/// If a file cannot be read, or its anchors are wrong.
 pub fn compose(
     project: &Project,
     entry: &Entry,
@@ -50,16 +50,16 @@ pub fn compose(
         shown.alone(file, true)?;
     }
     let Shown { mut text, contents, .. } = shown;
-    // The list of files stands before the first of them.
+    // The list of files comes before the first of them.
     let at = text.find(BODY).unwrap_or(text.len());
     text.replace_range(at..(at + BODY.len()).min(text.len()), &contents);
     Ok(Some(text))
 }
 
-/// What the comments are that a reader may wonder about.
+/// An explanation of the comments a reader may wonder about.
 const MARKS: &str = "A grey `ANCHOR` comment marks where a part that a page shows begins or ends.";
 
-/// Where the list of files goes.
+/// The placeholder of the list of files.
 const BODY: &str = "\u{1}";
 
 struct Shown<'a> {
@@ -67,7 +67,7 @@ struct Shown<'a> {
     text: String,
     /// The list of files.
     contents: String,
-    /// The files that are there.
+    /// The files listed so far.
     listed: BTreeSet<String>,
 }
 
@@ -114,7 +114,7 @@ impl Shown<'_> {
         Ok(())
     }
 
-    /// A file by itself, open or folded.
+    /// A single file, open or folded.
     fn alone(&mut self, file: &str, open: bool) -> Result<()> {
         let text = self.project.read(file)?;
         let named = named(file, &text)?;
@@ -143,7 +143,7 @@ impl Shown<'_> {
         let new = Painted::new(self.project, &diff.new)?;
         let mut html = String::new();
         for (changed, olds, news) in sides(diff) {
-            // What stands in a new file is all new.
+            // In a new file, nothing counts as changed.
             let changed = changed && diff.old.path.is_some();
             let class = match (&diff.old.path, changed) {
                 (None, _) => "alone",
@@ -200,8 +200,8 @@ impl<'a> Painted<'a> {
         Ok(Self { side, lines, named: named(file, &text)? })
     }
 
-    /// Some of its lines, with the marks before them, which a comparison leaves out; behind the last line
-    /// those that end the file. Lines of the older side lead nowhere.
+    /// Some of its lines, preceded by their marks, which a comparison leaves out; after the last line also
+    /// the marks that end the file. Lines of the older side are not links.
     fn lines(&self, class: &str, lines: Range<usize>) -> String {
         let mut html = format!("<div class=\"{class}\">");
         let file = self.side.path.as_deref().unwrap_or_default();
@@ -227,7 +227,7 @@ impl<'a> Painted<'a> {
     }
 }
 
-/// A comparison in pieces: whether lines differ, and which of both sides.
+/// A comparison in pieces: true if lines differ, and the lines of both sides.
 fn sides(diff: &FileDiff) -> Vec<(bool, Range<usize>, Range<usize>)> {
     let mut pieces: Vec<(bool, Range<usize>, Range<usize>)> = Vec::new();
     for op in &diff.ops {
@@ -249,10 +249,10 @@ fn kept(text: &str) -> impl Iterator<Item = (usize, &str)> {
     numbered.filter(|(_, line)| !anchor::is_mark(line))
 }
 
-/// The names of the parts that begin with a line.
+/// The names of the parts that begin on each line.
 fn named(file: &str, text: &str) -> Result<BTreeMap<usize, Vec<String>>> {
     let mut found: BTreeMap<usize, Vec<String>> = BTreeMap::new();
-    // A patch has of a part's marks what lies near its changes.
+    // A patch only contains the marks near its changes.
     if shader::language(file) == "diff" {
         return Ok(found);
     }

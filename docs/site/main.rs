@@ -9,7 +9,7 @@ use clap::Parser;
 #[derive(Debug, Parser)]
 #[command(name = "site", disable_version_flag = true)]
 struct Arguments {
-    /// Where it goes: a folder that this command made before, or that is empty or new
+    /// Folder for it, which this command made before, or which is empty or new [default: book]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 

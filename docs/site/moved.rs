@@ -1,4 +1,4 @@
-//! What stood elsewhere once: the site leads on from its old address, which somebody may have kept.
+//! Moved pages and places: the site redirects from their old addresses, which readers may have saved.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use manuscript::project::Project;
 use crate::contents::Entry;
 use crate::link::Wanted;
 
-/// The file with old places and new ones, beside the pages that both name.
+/// The file of old and new addresses.
 pub const FILE: &str = "docs/moved.toml";
 
 /// A place that has moved.
@@ -19,7 +19,7 @@ pub struct Moved {
     pub line: usize,
     /// Its old address: a page, or a place on one.
     pub old: String,
-    /// Where it is now.
+    /// Its new address.
     pub new: String,
 }
 
@@ -63,7 +63,7 @@ pub fn read(project: &Project, entries: &[Entry]) -> Result<Vec<Moved>> {
     moved.collect()
 }
 
-/// What mdBook is told.
+/// The redirects in mdBook's settings.
 pub fn redirects(moved: &[Moved]) -> BTreeMap<String, &str> {
     moved.iter().map(|Moved { old, new, .. }| (format!("/{old}"), &**new)).collect()
 }
@@ -77,7 +77,8 @@ pub fn wanted(moved: &[Moved]) -> impl Iterator<Item = Wanted> {
     })
 }
 
-/// The old place of one that is still there: nobody would come to it any more. `ids` are those of its page.
+/// The fault of a moved place whose old address still exists, so that its redirect is never used. `ids` are
+/// those of its page.
 pub fn still_there(moved: &Moved, ids: &BTreeSet<String>) -> Option<Fault> {
     let (page, id) = moved.old.split_once('#')?;
     let there = ids.contains(id).then(|| format!("'{page}' still has a place '{id}'"));

@@ -1,4 +1,4 @@
-//! The folder of a site: written whole or not at all, and never over what is no site.
+//! The folder of a site: written as a whole or not at all, and never over anything but a site.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,32 +6,32 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
 
-/// The file by which a site is known.
+/// The file that marks a folder as a site.
 const MARK: &str = ".made-by-cargo-chapters-book";
 
-/// The folder in which a site is being made.
+/// The folder of the site in progress.
 static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
 
-/// Removes what is half made: the process is about to end.
+/// Removes an unfinished site before the process ends.
 pub fn abandon() {
     let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-    // While it is removed, the build may go on and put something new in it.
+    // While it is removed, the build may add new files.
     let tries = unfinished.iter().flat_map(|folder| [folder; 100]);
     let _ = tries.map(fs::remove_dir_all).find(Result::is_ok);
     std::mem::forget(unfinished);
 }
 
-/// Makes a site by `build`, which writes it into a folder that does not exist yet, and puts it at `out`.
+/// Builds a site with `build`, which writes it into a new folder, and moves it to `out`.
 ///
 /// # Errors
-/// If `out` is something else than a site, nothing is built; what `build` says else.
+/// If `out` is something other than a site, in which case nothing is built; and the errors of `build`.
 pub fn replace<T>(out: &Path, build: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
     let out = std::path::absolute(out)?;
     refuse_others(&out)?;
     let beside = out.parent().map_or_else(|| PathBuf::from("/"), Path::to_owned);
     let cannot = || format!("cannot write '{}'", out.display());
     fs::create_dir_all(&beside).with_context(cannot)?;
-    // On the same disk, so that what is done can be renamed.
+    // On the same disk, so that the result can be renamed.
     let unfinished = || UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
     let work = {
         let mut unfinished = unfinished();
@@ -42,7 +42,7 @@ pub fn replace<T>(out: &Path, build: impl FnOnce(&Path) -> Result<T>) -> Result<
     };
     let (made, old) = (work.path().join("made"), work.path().join("old"));
     let built = build(&made)?;
-    // A signal comes before the old one makes room, or after the new one is there.
+    // A signal comes either before the old site is removed, or after the new one is in place.
     let _alone = unfinished();
     fs::write(made.join(MARK), "").with_context(cannot)?;
     if out.exists() {

@@ -1,4 +1,4 @@
-//! A page of the book as mdBook is to have it: its formulas, links, code, pictures and marks replaced.
+//! A page of the book in the form mdBook needs: with its formulas, links, code, pictures and marks replaced.
 
 mod mark;
 
@@ -25,23 +25,23 @@ use crate::{figure, gallery, slider};
 pub struct Composed {
     /// Its Markdown.
     pub markdown: String,
-    /// Files that it shows or links to and that are nobody else's: they stand on the page of its code.
+    /// Files it shows or links to that belong to no chapter; they are listed on the page of its code.
     pub files: BTreeSet<String>,
-    /// Where it leads within the site.
+    /// Its links within the site.
     pub wanted: Vec<Wanted>,
     /// Its pictures.
     pub pictures: BTreeSet<Picture>,
-    /// What is wrong on it.
+    /// Its faults.
     pub faults: Vec<Fault>,
-    /// How many formulas it has.
+    /// The number of formulas.
     pub formulas: usize,
-    /// How many sliders it has.
+    /// The number of sliders.
     pub sliders: usize,
     /// Its figures, by name.
     pub figures: BTreeSet<String>,
 }
 
-/// What mdBook reads, and formulas.
+/// The extensions enabled in mdBook, and formulas.
 const OPTIONS: Options = Options::ENABLE_TABLES
     .union(Options::ENABLE_FOOTNOTES)
     .union(Options::ENABLE_STRIKETHROUGH)
@@ -75,9 +75,9 @@ struct Composer<'a> {
     text: &'a str,
     page: &'a Page,
     edits: Vec<(Range<usize>, String)>,
-    /// Whether the next fenced block is a command that is seldom read.
+    /// True if the next fenced block is a rarely needed command, which is folded.
     folded: bool,
-    /// The line of the mark of a slider or a figure, and what it says, until its picture comes.
+    /// The line and content of the mark of a slider or a figure, until its picture follows.
     above: Option<(usize, Above)>,
     done: Composed,
 }
@@ -138,7 +138,7 @@ impl Composer<'_> {
                     if let Some(into) = into.or(picture.as_mut().map(|(_, _, words)| words)) {
                         into.push_str(&text);
                     } else if text.contains('$') && self.text[span.start..].starts_with('$') {
-                        // A brace that is not closed, say: Markdown takes it for text.
+                        // An unclosed brace, for example: Markdown treats it as text.
                         let what = "a '$' begins a formula that does not end";
                         self.fault(index, what, "close it and its braces, or write it as code");
                     }
@@ -166,7 +166,7 @@ impl Composer<'_> {
         }
         let mut at = 0;
         for (span, replacement) in &self.edits {
-            // A link around a picture has an edit behind it, and none within it.
+            // A link around a picture is edited after the picture, and not inside it.
             if span.start < at {
                 continue;
             }
@@ -223,7 +223,7 @@ impl Composer<'_> {
             Err(what) => return self.fault(index, what, "correct it"),
         };
         self.want(index, &address);
-        // As written: in parentheses behind the text, which may have a link's address in it, too.
+        // The target as written: in parentheses after the text, which may itself contain a link's address.
         let written = self.text[span.clone()].rfind(&format!("({target}"));
         match written.filter(|_| kind == LinkType::Inline) {
             Some(at) => {
@@ -304,7 +304,7 @@ impl Composer<'_> {
         } else {
             code
         };
-        // The fence's last line may be the text's last, without an end of its own.
+        // The fence's last line may be the last line of the text, without a line ending.
         let ended = self.text[span.clone()].ends_with('\n');
         self.edits.push((span, if ended { html + "\n" } else { html }));
     }

@@ -9,10 +9,10 @@ use manuscript::project::Project;
 
 use crate::color::escaped;
 
-/// What of a picture is shown.
+/// The part of a picture that is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// All of it, as it is.
+    /// All of it, unchanged.
     Whole,
     /// The first of two panels under labels, side by side or one above the other.
     First,
@@ -20,12 +20,12 @@ pub enum Part {
     Second,
     /// All of it, at most 480 pixels wide.
     Small,
-    /// The first frame of one that moves.
+    /// The first frame of a moving picture.
     Still,
 }
 
-/// The height of a label above its panel and the gap between panels, in pixels: those of `panels`, which
-/// makes the sheets.
+/// The height of a label above its panel and the gap between panels, in pixels, as in `panels`, which makes
+/// the sheets.
 const LABEL: u32 = 22;
 const GAP: u32 = 6;
 /// The width of a picture in the gallery.
@@ -36,7 +36,7 @@ const SMALL: u32 = 480;
 pub struct Picture {
     /// The file, from the project's root.
     pub from: String,
-    /// What of it.
+    /// The part shown.
     pub part: Part,
 }
 
@@ -57,7 +57,7 @@ impl Picture {
     /// Writes it below `folder`.
     ///
     /// # Errors
-    /// If it cannot be read or written, or is no sheet of two panels where one is asked for.
+    /// If it cannot be read or written, or is not a sheet of two panels where one is needed.
     pub fn write(&self, root: &Path, folder: &Path) -> Result<()> {
         let (from, to) = (root.join(&self.from), folder.join(self.address()));
         fs::create_dir_all(to.parent().unwrap_or(folder))?;
@@ -83,17 +83,17 @@ impl Picture {
         cut.save(&to).with_context(|| format!("cannot write '{}'", to.display()))
     }
 
-    /// The still one of a picture that moves.
+    /// The still version of a moving picture; `None` if it does not move.
     pub fn still(&self, root: &Path) -> Option<Self> {
         let bytes = fs::read(root.join(&self.from)).ok()?;
-        // The chunk acTL comes before all pixels.
+        // The chunk acTL precedes all pixels.
         let pixels = bytes.windows(4).position(|word| word == b"IDAT")?;
         let moves = bytes[..pixels].windows(4).any(|word| word == b"acTL");
         (moves && self.part == Part::Whole)
             .then(|| Self { from: self.from.clone(), part: Part::Still })
     }
 
-    /// It as HTML: with its size, so that nothing jumps while it loads.
+    /// The picture as HTML, with its size, so that the page does not jump while it loads.
     pub fn html(&self, project: &Project, words: &str, lazy: bool) -> String {
         let (width, height) = size(&project.root.join(&self.from)).unwrap_or((0, 0));
         let size = match self.part {
@@ -110,7 +110,7 @@ impl Picture {
         let lazy = if lazy { " loading=\"lazy\"" } else { "" };
         let alt = escaped(words).replace('|', "&#124;");
         let image = format!("<img src=\"{}\" alt=\"{alt}\"{drawing}{size}{lazy}>", self.address());
-        // Who prefers less motion sees the first frame.
+        // Readers who prefer less motion see the first frame.
         match self.still(&project.root) {
             Some(still) => format!(
                 "<picture><source media=\"(prefers-reduced-motion: reduce)\" srcset=\"{}\">{image}</picture>",
@@ -121,10 +121,10 @@ impl Picture {
     }
 }
 
-/// Where a panel of a sheet of two lies: left, top, width and height in pixels.
+/// The place of a panel on a sheet of two: left, top, width and height in pixels.
 pub fn panel((width, height): (u32, u32), second: bool) -> [u32; 4] {
     let step = u32::from(second);
-    // Two panels that lie side by side make a sheet that is wider than three of them on top of each other.
+    // If the panels are side by side, the sheet is wider than three of them stacked.
     if width > 2 * height {
         let panel = (width - GAP) / 2;
         [step * (panel + GAP), LABEL, panel, height - LABEL]
@@ -134,7 +134,7 @@ pub fn panel((width, height): (u32, u32), second: bool) -> [u32; 4] {
     }
 }
 
-/// Width and height of a picture in pixels: from a PNG's header, or what an SVG's first tag says.
+/// Width and height of a picture in pixels, from a PNG's header or an SVG's first tag.
 pub fn size(path: &Path) -> Option<(u32, u32)> {
     let bytes = fs::read(path).ok()?;
     if bytes.starts_with(b"\x89PNG") {

@@ -1,7 +1,7 @@
-//! Before and after: two pictures of one view, of which a slider shows more of the one or of the other.
+//! Before and after: two pictures of one view, with a slider between them.
 //!
-//! `<!-- slider -->` above a sheet of two panels takes both, and their labels from the commands that make
-//! it. `<!-- slider OTHER: THEN | NOW -->` above a picture takes `images/OTHER.png` as the first.
+//! `<!-- slider -->` above a sheet of two panels shows both, with the labels of their commands. `<!-- slider
+//! OTHER: THEN | NOW -->` above a picture shows `images/OTHER.png` as the first.
 
 use manuscript::page::Page;
 use manuscript::project::Project;
@@ -9,10 +9,10 @@ use manuscript::project::Project;
 use crate::color::escaped;
 use crate::picture::{Part, Picture, size};
 
-/// A slider as HTML in one line, and its pictures. Without a script both stand side by side.
+/// A slider as HTML in one line, and its pictures. Without a script the two are side by side.
 ///
 /// # Errors
-/// What is wrong with the mark.
+/// The fault of the mark.
 pub fn html(
     project: &Project,
     page: &Page,
@@ -49,7 +49,7 @@ pub fn html(
         Part::Whole => width,
         _ => crate::picture::panel((width, height), false)[2],
     });
-    // Small pictures show single pixels: they stay sharp at twice their size.
+    // Small pictures show single pixels, so they stay sharp at twice their size.
     let (wide, sharp) = if wide <= 400 { (2 * wide, " sharp") } else { (wide, "") };
     let figure = |picture: &Picture, label: &str, alt: &str| {
         let image = picture.html(project, alt, true);
@@ -64,7 +64,7 @@ pub fn html(
     Ok((html, pictures))
 }
 
-/// The labels of a sheet's panels: in the block that makes it, each stands above its command.
+/// The labels of a sheet's panels, from the lines above the commands in its block.
 fn labels_of(page: &Page, file: &str) -> Vec<String> {
     let stem = file.rsplit('/').next().and_then(|name| name.split('.').next());
     let made = page.pictures.iter().find(|mark| mark.name.as_deref() == stem);

@@ -1,16 +1,16 @@
-//! Operations whose error has a bound: operands to try, the exact result, and how far off it may be.
+//! Operations with a bounded error: operands, the exact result, and the error bound.
 
 use std::f64::consts::LN_2;
 
 use glam::Vec3;
 
-/// The distance of the floats around x.
+/// The distance between neighbouring floats at x.
 pub fn ulp(x: f64) -> f64 {
     let exponent = (x.abs().max(1e-300).to_bits() >> 52) as i32 - 1023;
     2f64.powi(exponent.max(-126) - 23)
 }
 
-/// From 0 to 1, the same at every run.
+/// Numbers from 0 to 1, the same in every run.
 pub struct Random(pub u32);
 
 impl Random {
@@ -24,15 +24,15 @@ impl Random {
         low + (high - low) * self.next()
     }
 
-    /// Of any size within 2^±10 and either sign.
+    /// A number within 2^±10, of either sign.
     pub fn any(&mut self) -> f32 {
         let size = self.within(-10.0, 10.0).exp2();
         if self.next() < 0.5 { size } else { -size }
     }
 }
 
-/// An operation with an error bound: its number in the shader, its operands, and for operands the exact
-/// result and how far it may be off.
+/// An operation with an error bound: its number in the shader, its operands, and a function that returns the
+/// exact result and the bound.
 pub struct Bounded {
     pub name: &'static str,
     pub number: u32,
@@ -58,7 +58,7 @@ fn exponent(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(-20.0, 20.0))
 }
 
-/// An angle at which neither sine nor cosine is near 0.
+/// An angle whose sine and cosine are both well above 0.
 fn acute(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(0.1, 1.4))
 }
@@ -67,7 +67,7 @@ fn sine(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(-0.999, 0.999))
 }
 
-/// Two numbers, and the part of the second that a blend takes.
+/// Two numbers, and the weight of the second in a blend.
 fn blend(random: &mut Random) -> Vec3 {
     Vec3::new(random.any(), random.any(), random.next())
 }
@@ -78,7 +78,7 @@ fn edges(random: &mut Random) -> Vec3 {
     Vec3::new(low, high, random.within(0.1, 0.9) * (high - low) + low)
 }
 
-/// A direction, and a ratio of refractive indices that always lets it through.
+/// A direction, and a ratio of refractive indices without total reflection.
 fn refracted(random: &mut Random) -> Vec3 {
     Vec3::new(random.within(-0.4, 0.4), random.within(-0.9, -0.5), random.within(0.5, 1.0))
 }
@@ -87,7 +87,7 @@ fn near_one(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(0.5, 2.0))
 }
 
-/// Greatest distance of `of` from `of(x)`, for numbers within `off` of `x`.
+/// The largest distance between `of` and `of(x)`, for numbers within `off` of `x`.
 fn spread(of: impl Fn(f64) -> f64, x: f64, off: f64) -> f64 {
     (of(x + off) - of(x)).abs().max((of(x - off) - of(x)).abs())
 }
@@ -104,7 +104,7 @@ fn power_bound(x: f64, y: f64) -> f64 {
     spread(f64::exp2, product, off) + (3.0 + 2.0 * (product.abs() + off)) * ulp(largest)
 }
 
-/// Error bound of a quotient if `x` and `y` are off by so much: 2.5 ULP for the division.
+/// Error bound of a quotient if `x` and `y` have these errors: 2.5 ULP for the division.
 fn quotient_bound(x: f64, x_off: f64, y: f64, y_off: f64) -> f64 {
     let (exact, largest) = ((x / y).abs(), (x.abs() + x_off) / (y.abs() - y_off));
     largest - exact + 2.5 * ulp(largest)
@@ -287,7 +287,7 @@ pub const BOUNDED: [Bounded; 20] = [
         exact: |x, y, z| (x * x + y * y + z * z).sqrt(),
         bound: |x, y, z| {
             let square = x * x + y * y + z * z;
-            // Three products and two sums, each off by one ULP at most of the whole.
+            // Three products and two sums, each with an error of at most one ULP of the whole.
             let off = 5.0 * ulp(square);
             spread(f64::sqrt, square, off) + root_bound(square + off)
         },

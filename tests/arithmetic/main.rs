@@ -1,4 +1,4 @@
-//! The worst arithmetic, operation by operation: each error that Vulkan allows is made, and none beyond.
+//! The worst arithmetic, operation by operation: its errors reach what Vulkan allows, and do not exceed it.
 //!
 //! The bounds are those of the specification's appendix "Vulkan Environment for SPIR-V", section
 //! "Precision of Individual Operations".
@@ -23,14 +23,14 @@ common::shader_struct! {
 
 const COUNT: usize = 4096;
 
-/// An operation of two numbers, done in 64 bits.
+/// An operation on two numbers, in 64 bits.
 type Exact = fn(f64, f64) -> f64;
 
 fn results(gpu: &Gpu, shader: &str, operation: u32, operands: &[Vec3]) -> Vec<f32> {
     computed(gpu, shader, operation, operands)
 }
 
-/// Results of the device for these operands.
+/// The device's results for these operands.
 fn computed<T: bytemuck::Pod>(
     gpu: &Gpu,
     shader: &str,
@@ -103,7 +103,7 @@ fn bounds_are_approached_and_kept(gpu: &Gpu) {
             operands.iter_mut().for_each(|v| v.y = v.y.min(9.0));
         }
         let (mut most, mut least) = (0.0f64, 0.0f64);
-        // The errors are added to what the device makes of a sine, which a GPU computes to some 2^-21.
+        // The errors are added to the device's own sine, which a GPU computes to about 2^-21.
         let most_allowed = if run::device::is_software() { 1.0 } else { 1.0 + f64::powi(2.0, -9) };
         for (v, result) in operands.iter().zip(results(gpu, "probe.rgen", number, &operands)) {
             let [x, y, z] = v.to_array().map(f64::from);
@@ -112,7 +112,8 @@ fn bounds_are_approached_and_kept(gpu: &Gpu) {
             (most, least) = (most.max(part), least.min(part));
         }
         println!("{name}: from {least:.3} to {most:.3} of the bound");
-        // Where the bound is inherited from a formula, all steps would have to err the same way.
+        // If the bound is inherited from a formula, it is only reached when all steps err in the same
+        // direction.
         let inherited =
             ["sqrt", "pow", "length", "tan", "mix", "smoothstep", "refract"].contains(&name);
         let near = if inherited { 0.5 } else { 0.95 };
@@ -141,7 +142,7 @@ fn sums_and_products_are_one_of_two_floats(gpu: &Gpu) {
         println!("operation {number}: {other} of {inexact} inexact results are the farther float");
         assert!(inexact > 1000 && other * 3 > inexact && other * 3 < 2 * inexact);
     }
-    // Exact results: 24 bits are enough for these.
+    // Exact results: 24 bits are enough for them.
     let small =
         operands.iter().map(|v| (v * 8.0).round().clamp(-Vec3::splat(2048.0), Vec3::splat(2048.0)));
     let small: Vec<Vec3> = small.collect();
@@ -161,21 +162,21 @@ fn what_is_declared_is_kept(gpu: &Gpu) {
             assert_eq!(result.to_bits(), exact(v.x, v.y).to_bits(), "nearest: {number} on {v}");
         }
     }
-    // A shader needs not have truth values for its denormalized results to be found.
+    // Denormalized results are also found in a shader without booleans.
     let found = results(gpu, "sum_exact.rgen", 0, &operands);
     assert!(found.iter().zip(&operands).all(|(sum, v)| *sum == v.x + v.y));
-    // NaN is known where it is declared to be kept, and only there.
+    // NaN is only recognised where the shader declares that it is preserved.
     let zeros = [Vec3::ZERO; 4];
     assert_eq!(results(gpu, "probe_exact.rgen", 18, &zeros), [1.0; 4]);
     assert_eq!(results(gpu, "probe.rgen", 18, &zeros), [0.0; 4]);
 }
 
 fn the_rest_of_the_promises(gpu: &Gpu) {
-    // Denormalized results are flushed, and nothing else is.
+    // Denormalized results are flushed to zero, and nothing else is.
     let tiny: Vec<Vec3> = (1..64).map(|i| Vec3::new(i as f32 * 1e-25, 1e-15, 0.0)).collect();
     assert!(results(gpu, "probe.rgen", 2, &tiny).iter().all(|x| *x == 0.0));
     let operands = operands(pair);
-    // x·y + z: with one rounding here, with two there.
+    // x·y + z with one rounding here, with two there.
     let fused = |v: &Vec3| f64::from(v.x) * f64::from(v.y) + f64::from(v.z);
     let found = results(gpu, "probe.rgen", 15, &operands);
     let mut beyond_one_rounding = 0;
@@ -188,12 +189,12 @@ fn the_rest_of_the_promises(gpu: &Gpu) {
     }
     let share = beyond_one_rounding as f64 / COUNT as f64;
     assert!(share > 0.05 && share < 0.6, "{share}");
-    // x + y - x may be y, or y as two roundings leave it.
+    // x + y - x may be y, or y after two roundings.
     let wide: Vec<Vec3> = operands.iter().map(|v| Vec3::new(v.x * 1e6, v.y, 0.0)).collect();
     let found = results(gpu, "probe.rgen", 16, &wide);
     let kept = wide.iter().zip(&found).filter(|(v, result)| v.y == **result).count();
     assert!(kept > COUNT / 5 && kept < COUNT * 4 / 5, "{kept} of {COUNT}");
-    // Beyond π the sine is any number from -1 to 1, and not the sine.
+    // Beyond π, the sine may be any number from -1 to 1.
     let far: Vec<Vec3> = (0..COUNT).map(|i| Vec3::splat(4.0 + i as f32)).collect();
     let found = results(gpu, "probe.rgen", 10, &far);
     assert!(found.iter().all(|x| x.abs() <= 1.0));
@@ -203,7 +204,7 @@ fn the_rest_of_the_promises(gpu: &Gpu) {
     assert!(results(gpu, "probe.rgen", 19, &operands).iter().all(|x| *x == 0.0));
 }
 
-/// x - y·⌊x/y⌋, where the quotient may be 2.5 ULP off, and so ⌊x/y⌋ by one.
+/// x - y·⌊x/y⌋: the quotient may be 2.5 ULP off, and so ⌊x/y⌋ may be off by one.
 fn a_remainder_may_be_one_divisor_off(gpu: &Gpu) {
     let mut random = Random(1);
     let operand =
@@ -231,8 +232,8 @@ fn a_remainder_may_be_one_divisor_off(gpu: &Gpu) {
     assert!(whole > COUNT / 5 && whole < COUNT * 4 / 5, "{whole} of {COUNT}");
 }
 
-/// min, max and clamp promise nothing for a NaN, whatever a shader declares: any operand may come out. For
-/// numbers the right one comes out.
+/// min, max and clamp promise nothing for a NaN, whatever a shader declares: they may return any operand. For
+/// numbers they return the right one.
 fn nan_may_be_taken_for_the_lesser_and_the_greater(gpu: &Gpu) {
     let operands = operands(pair);
     let order = |v: &Vec3| Vec3::new(v.x, v.y.min(v.z), v.y.max(v.z));
@@ -253,7 +254,7 @@ fn nan_may_be_taken_for_the_lesser_and_the_greater(gpu: &Gpu) {
     }
 }
 
-/// 64-bit operations are promised to be as precise as 32-bit ones, and are here no more.
+/// Vulkan only promises the precision of 32-bit operations for 64-bit ones; here they have no more.
 fn doubles_have_the_bits_of_floats(gpu: &Gpu) {
     let operands = operands(pair);
     let operations: [(&str, Exact, f64); 5] = [

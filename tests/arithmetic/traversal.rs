@@ -1,4 +1,5 @@
-//! Freedoms of a device with boxes: to offer them to rays that pass by, and in any order.
+//! A device's freedom with boxes: it may call the intersection shader for rays that miss them, and in any
+//! order.
 
 use common::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
@@ -57,18 +58,18 @@ fn offered(gpu: &Gpu, boxes: &[[Vec3; 2]]) -> Vec<Vec<u32>> {
     found.iter().map(numbers).collect()
 }
 
-/// Rays along z at x = 0, 1, 2, ...; the worst arithmetic is the second device's.
+/// Rays along z at x = 0, 1, 2, ...; the second device has the worst arithmetic.
 pub fn offers_more_boxes_in_another_order(driver: &Gpu, worst: &Gpu) {
-    // From x = 1.5 to 3.5, that is, met by the rays 2 and 3. Twice as large, by 1 and 4, too.
+    // From x = 1.5 to 3.5, so rays 2 and 3 hit it. At twice the size, so do rays 1 and 4.
     let one = [Vec3::new(1.5, -1.0, -1.0), Vec3::new(3.5, 1.0, 1.0)];
     let met = |gpu| -> Vec<usize> { offered(gpu, &[one]).iter().map(Vec::len).collect() };
     assert_eq!(met(driver), [0, 0, 1, 1, 0, 0, 0, 0]);
     assert_eq!(met(worst), [0, 1, 1, 1, 1, 0, 0, 0]);
-    // Flat ones become thick.
+    // Flat boxes get some thickness.
     let flat = [Vec3::new(2.0, -1.2, 0.0), Vec3::new(2.0, 1.2, 0.0)];
     let met = |gpu| -> Vec<usize> { offered(gpu, &[flat]).iter().map(Vec::len).collect() };
     assert_eq!(met(worst), [0, 1, 1, 1, 0, 0, 0, 0]);
-    // All in the same place: nothing but the build's order tells them apart.
+    // All in the same place: only the order of the build distinguishes them.
     let calls = |gpu| offered(gpu, &[one; 5])[2].clone();
     let (one_way, other_way) = (calls(driver), calls(worst));
     assert_eq!((one_way.len(), other_way.len()), (5, 5), "{one_way:?} {other_way:?}");

@@ -1,20 +1,20 @@
 //! The device that tests run on: the software driver alone, unless `GPU` in the environment names another.
 //!
-//! `GPU=1` is the best device there is, `GPU=NAME` one by a part of its name. Without it the Vulkan loader is
-//! shown Mesa's software driver and no other, from before `main`, so that all that a test program starts, and
-//! all that it opens itself, have that driver. A reader's `cargo run` is not touched.
+//! `GPU=1` selects the best device, `GPU=NAME` one by a part of its name. Otherwise the Vulkan loader only
+//! sees Mesa's software driver, from before `main`, so that the test program and everything it starts use
+//! that driver. A reader's `cargo run` is not affected.
 //!
-//! A test program that links this crate is so set up; one that needs nothing else of it writes
-//! `use device as _;`.
+//! Linking this crate is enough; a test program that needs nothing else from it writes `use device as _;`.
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// The variable that names the drivers to the loader. `VK_DRIVER_FILES` does the same and has precedence: so a test
-/// that brings a driver, and `--compile-for`, need not know of this one.
+/// The variable that names the drivers to the loader. `VK_DRIVER_FILES` does the same and takes precedence,
+/// so a test that brings a driver, and `--compile-for`, need not know this one.
 pub const VARIABLE: &str = "VK_ICD_FILENAMES";
 
-/// A manifest that no driver has, for a machine without software driver: nothing else shall take its place.
+/// A manifest that no driver has, for a machine without the software driver, so that no other driver is used
+/// instead.
 const NONE: &str = "no-software-driver-for-tests";
 
 /// Called by the system before `main`.
@@ -26,29 +26,29 @@ static BEFORE_MAIN: extern "C" fn() = choose;
 
 extern "C" fn choose() {
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    // Whoever names drivers has chosen; a test that starts itself again has, too.
+    // An explicit choice of drivers stands, including that of a test that starts itself again.
     if asked().is_some() || is_set(VARIABLE) || is_set("VK_DRIVER_FILES") {
         return;
     }
     let manifest = manifest().unwrap_or_else(|| NONE.into());
-    // SAFETY: before `main` there is one thread, and nobody else reads or writes the environment.
+    // SAFETY: before `main` there is only one thread, and no other code reads or writes the environment.
     unsafe { std::env::set_var(VARIABLE, manifest) };
 }
 
-/// Tests whether tests run on the software driver and in its own arithmetic: they demand equality to the bit there
-/// even where Vulkan promises less. Pipelines that `ARITHMETIC_SEED` changes count as another device's.
+/// Returns whether tests run on the software driver and in its own arithmetic, where they demand bitwise
+/// equality even if Vulkan promises less. Pipelines changed by `ARITHMETIC_SEED` count as another device's.
 pub fn is_software() -> bool {
     asked().is_none() && std::env::var_os("ARITHMETIC_SEED").is_none()
 }
 
-/// The value of `GPU`, if it asks for another device than the software driver.
+/// The value of `GPU`, if it selects a device other than the software driver.
 pub fn asked() -> Option<&'static str> {
     static ASKED: LazyLock<Option<String>> =
         LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0"].contains(&&**gpu)));
     ASKED.as_deref()
 }
 
-/// The manifest of Mesa's software driver, where the loader looks for such.
+/// The manifest of Mesa's software driver, in the folders the loader searches.
 pub fn manifest() -> Option<PathBuf> {
     let or = |name: &str, usual: &str| match std::env::var(name) {
         Ok(folders) if !folders.is_empty() => folders,
@@ -65,7 +65,7 @@ pub fn manifest() -> Option<PathBuf> {
     manifest_in(&folders)
 }
 
-/// The same below given folders. Of several architectures it is this program's own.
+/// The manifest below these folders; if there are several, that of this program's architecture.
 fn manifest_in(folders: &[PathBuf]) -> Option<PathBuf> {
     let names = [format!("lvp_icd.{}.json", std::env::consts::ARCH), "lvp_icd.json".to_owned()];
     let mut files = names.iter().flat_map(|name| {

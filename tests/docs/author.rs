@@ -1,4 +1,4 @@
-//! Faults that only an author can fix: named with file, line and what to do.
+//! Faults that only an author can fix: reported with file, line and remedy.
 
 use crate::fixture::Fixture;
 use crate::{Case, expect};
@@ -155,7 +155,7 @@ fn a_package_that_cargo_test_leaves_out_is_named_beside_what_it_makes_stale() {
     let line = "Cargo.toml:25: '02_basic' is a package without a test program: `cargo test` would not \
                 build it; add [[test]] to samples/02_basic/Cargo.toml";
     assert!(found.lines().any(|found| found == line), "{found}");
-    // The chapter has one more file: all that is made from the chapter is stale, too.
+    // The chapter has one more file, so everything generated from the chapter is stale as well.
     let beside = ["docs/02_basic.md:", "samples/02_basic/Cargo.toml:1: stray file: "];
     let expected =
         |found: &str| found == line || beside.iter().any(|start| found.starts_with(start));

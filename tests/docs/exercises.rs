@@ -1,4 +1,4 @@
-//! Exercises: each is what its file claims, and the tool sets them up, checks them and keeps a reader's edits.
+//! Exercises: their claims are true, and the tool sets them up, checks them and preserves a reader's edits.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -12,7 +12,7 @@ fn tool(arguments: &[&str]) -> Outcome {
     run(Command::new(env!("CARGO_BIN_EXE_chapters")).arg("exercise").args(arguments))
 }
 
-/// The exercises of the real book, each with what it takes.
+/// The exercises of the real book, each with the kind of work it needs.
 fn exercises() -> Vec<(String, String)> {
     let list = tool(&["--list"]);
     assert_eq!(list.code, 0, "{}", list.err);
@@ -24,7 +24,7 @@ fn exercises() -> Vec<(String, String)> {
     list.out.lines().map(words).collect()
 }
 
-/// Exercises that built programs prove: no test, no Rust.
+/// Returns whether built programs are enough to prove it: no test, no Rust.
 fn is_quick(takes: &str) -> bool {
     ["look", "shader"].contains(&takes)
 }
@@ -35,10 +35,11 @@ fn prove(names: &[&str]) {
     assert_eq!(outcome.out.lines().count(), names.len());
 }
 
-/// The chapters whose first shader exercise is proved by day. `chapters check` holds that every patch fits.
+/// The chapters whose first shader exercise is proved by day. `chapters check` makes sure that every patch
+/// applies.
 const BY_DAY: [&str; 2] = ["02", "08"];
 
-/// A few exercises, and what has been edited since the last commit.
+/// A few exercises, and those edited since the last commit.
 #[test]
 fn exercises_are_unsolved_before_their_solution_and_solved_after() {
     let all = exercises();
@@ -61,7 +62,7 @@ fn exercises_are_unsolved_before_their_solution_and_solved_after() {
     prove(&names);
 }
 
-/// As on another device: each pipeline has errors of its own, so no two have the same bits.
+/// As on another device: each pipeline has its own errors, so no two have the same bits.
 #[test]
 fn two_ways_to_the_same_picture_may_round_as_they_like() {
     if !::run::has_worst_arithmetic() {
@@ -149,7 +150,7 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
         assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
     }
     fixture.write(file, &whole);
-    // The reader sees the first run of an exercise that takes only looking.
+    // For an exercise without edits, the reader sees the first run.
     let look = "docs/exercises/02.2.diff";
     let text = fixture.read(look);
     fixture.write(
@@ -251,7 +252,7 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     let unsolved = "error: 02.1 is not solved yet: yours is darker than the target in 1500 of 1500 pixels \
                     with --size 50x30: yours target/exercises/02.1.png, where they differ \
                     target/exercises/02.1.other.png";
-    // The target would give the solution away: first one tries.
+    // The target would give the solution away, so the reader has to try first.
     let target = ask(&["--target"]);
     let early = "error: the target of 02.1 is shown once two attempts have failed, not after 0\n";
     assert_eq!((target.code, &*target.err), (1, early));
@@ -269,13 +270,13 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
         assert!(picture.is_file(), "{} is not kept", picture.display());
     }
     let camera = "target/exercises/02.1/02_basic/camera.rgen";
-    // Half an edit.
+    // A partial edit.
     fixture.replace(camera, "payload);", "payload; // half");
     let outcome = ask(&["--check"]);
     let start = "error: 02.1 is not solved yet: shader does not compile: 02_basic/camera.rgen:";
     assert!(outcome.code == 1 && outcome.err.starts_with(start), "{}", outcome.err);
     assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
-    // It is gone on with, and the solution does not fit it any more.
+    // The edit is continued, and the solution no longer applies to it.
     let outcome = ask(&["--solution", "--apply"]);
     let misfit = "error: the solution does not fit shaders/02_basic/camera.rgen in target/exercises/02.1 any \
                   more: undo what you have changed there, or delete it to begin anew\n";
@@ -286,11 +287,11 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
                   Why: The picture is what is stored.\n";
     assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
     assert!(fixture.read(camera).contains("// mine"));
-    // The book's own shaders are as they were.
+    // The book's own shaders are unchanged.
     assert!(fixture.read("shaders/02_basic/camera.rgen").contains("payload);"));
 }
 
-/// A script takes the place of Cargo.
+/// A script stands in for Cargo.
 #[test]
 #[cfg(unix)]
 fn who_waits_is_told_for_what() {
@@ -312,7 +313,7 @@ fn who_waits_is_told_for_what() {
     }
 }
 
-/// A program that ends with its test, even where that fails.
+/// A program that is killed when its test ends, even if the test fails.
 struct Started(Child);
 
 impl Drop for Started {
@@ -348,7 +349,7 @@ fn each_save_is_checked_until_the_exercise_is_solved() {
     let render = "Make it yourself: SHADERS=target/exercises/02.1 cargo run --bin 02_basic -- --size 50x30 \
                   --headless --out target/exercises/02.1.png";
     assert!(told.iter().any(|line| line == render), "{told:#?}");
-    // The check's text comes with the verdict, once the exercise is solved.
+    // The check's text is printed with the verdict, once the exercise is solved.
     assert!(!told.iter().any(|line| line.contains("Check:")), "{told:#?}");
     let last = told.last().expect("a line");
     let first = "not yet: yours is darker than the target in 1500 of 1500 pixels with";
@@ -382,7 +383,7 @@ fn a_signal_ends_the_tool_and_the_window_that_it_has_opened() {
         let kill = format!("kill -{what} {id} 2> /dev/null");
         Command::new("sh").args(["-c", &kill]).status().expect("a shell").success()
     };
-    // In place of the chapter a program that is open until it is closed.
+    // Instead of the chapter, a program that runs until it is closed.
     let folder = tempfile::tempdir().expect("a temporary folder");
     let [tool, window, id] = ["chapters", "02_basic", "id"].map(|name| folder.path().join(name));
     fs::copy(fixture.tool(), &tool).expect("a copy of the tool");
@@ -392,7 +393,7 @@ fn a_signal_ends_the_tool_and_the_window_that_it_has_opened() {
     fs::set_permissions(&window, fs::Permissions::from_mode(0o755)).expect("a program");
     for what in ["TERM", "INT", "HUP"] {
         let _ = fs::remove_file(&id);
-        // Where the tests run under nohup, it would begin with a signal ignored.
+        // Under nohup, the test would start with a signal ignored.
         let mut command = Command::new("env");
         command.arg("--default-signal=TERM,INT,HUP").arg(&tool);
         command.args(["exercise", "02.2", "--root"]).arg(fixture.path("")).env("DISPLAY", ":0");
@@ -467,19 +468,19 @@ fn an_authors_edits_become_an_exercises_diff() {
     ] {
         assert!(text.contains(part), "no '{part}' in:\n{text}");
     }
-    // It is an exercise, and what is to be written is told.
+    // It is an exercise, and the missing text is reported.
     let solution = fixture.run(&["exercise", "02.4", "--solution"]).out;
     assert!(solution.contains("0.5 * payload"), "{solution}");
     let write = format!("{file}:1: 'WRITE' holds a place for something");
     assert!(fixture.check().lines().any(|line| line.starts_with(&write)), "{}", fixture.check());
-    // What was written stays.
+    // Existing text is preserved.
     fixture.replace(file, "WRITE a title", "Halve it");
     fixture.replace("mine/02_basic/camera.rgen", "0.5 *", "0.25 *");
     assert_eq!(make(&["--folder", &folder]).code, 0);
     let text = fixture.read(file);
     assert!(text.starts_with("Halve it\n\nTakes: shader\n") && text.contains("0.25 * payload"));
     assert!(!text.contains("0.5 * payload"), "{text}");
-    // From what differs from the last commit.
+    // From the differences to the last commit.
     let git = |arguments: &[&str]| {
         let identity = ["-c", "user.name=a", "-c", "user.email=a@example.org"];
         let mut git = Command::new("git");

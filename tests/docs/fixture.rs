@@ -1,6 +1,6 @@
-//! A small project of two chapters in a temporary folder, whose every part is as it should be.
+//! A small project of two chapters in a temporary folder, without any fault.
 //!
-//! Both chapters' programs are copies of `02_basic`: its pictures are real ones, its tables real tables.
+//! Both chapters' programs are copies of `02_basic`, so its pictures and tables are real.
 
 use std::env::consts::EXE_SUFFIX;
 use std::fs;
@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 use run::{copy, program, root};
 use tempfile::TempDir;
 
-/// A project on disk, gone with its last user.
+/// A project on disk, removed with its last user.
 pub struct Fixture {
     folder: TempDir,
 }
@@ -22,9 +22,9 @@ pub struct Outcome {
     pub code: i32,
     /// Standard output.
     pub out: String,
-    /// Standard error, but for what it waits for: that depends on the machine.
+    /// Standard error without the messages about waiting, which depend on the machine.
     pub err: String,
-    /// The waits in its output.
+    /// The messages about waiting.
     pub waits: Vec<String>,
 }
 
@@ -38,7 +38,7 @@ static PROGRAMS: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// The project that every test copies: filled in and with its pictures, once.
+/// The project that every test copies: filled in once, with its pictures.
 static WHOLE: LazyLock<Fixture> = LazyLock::new(|| {
     let fixture = Fixture { folder: tempfile::tempdir().expect("a temporary folder") };
     for (path, text) in FILES {
@@ -48,7 +48,7 @@ static WHOLE: LazyLock<Fixture> = LazyLock::new(|| {
     for folder in ["samples/02_basic", "shaders/02_basic"] {
         copy(&real.join(folder), &fixture.path(folder));
     }
-    // Of the common shaders those that are included: the others would be strays.
+    // Of the common shaders only the included ones: the others would be strays.
     let mut open = files(&fixture.path("shaders"));
     while let Some(file) = open.pop() {
         let text = fs::read_to_string(file).expect("a shader");
@@ -94,7 +94,7 @@ impl Fixture {
         fs::write(path, text).expect("a file");
     }
 
-    /// Replaces a text that must stand in a file.
+    /// Replaces a text that must occur in a file.
     pub fn replace(&self, path: &str, from: &str, to: &str) {
         let text = self.read(path);
         assert!(text.contains(from), "'{from}' is not in {path}: {text}");
@@ -106,7 +106,7 @@ impl Fixture {
         fs::remove_file(self.path(path)).expect("a file of the fixture");
     }
 
-    /// The tool, beside the project's programs.
+    /// The tool, in the folder of the project's programs.
     pub fn tool(&self) -> PathBuf {
         PROGRAMS.path().join(format!("chapters{EXE_SUFFIX}"))
     }
@@ -123,7 +123,7 @@ impl Fixture {
         command
     }
 
-    /// Output of `check`: nothing if all is well.
+    /// Output of `check`: empty if there is no fault.
     pub fn check(&self) -> String {
         let outcome = self.run(&["check"]);
         assert_eq!(outcome.code, i32::from(!outcome.out.is_empty()), "{}", outcome.err);
@@ -152,7 +152,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     entries(folder).into_iter().flat_map(below).collect()
 }
 
-/// Everything but what is copied from the real project.
+/// The files that are not copied from the real project.
 const FILES: [(&str, &str); 16] = [
     (
         "Cargo.toml",

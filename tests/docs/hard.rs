@@ -1,4 +1,4 @@
-//! `chapters hard`: a table of wrong answers, and an exit code that one of ours decides.
+//! `chapters hard`: a table of wrong answers, and the exit code, which depends on ours.
 
 use std::path::Path;
 use std::process::Command;
@@ -13,7 +13,7 @@ fn hard(arguments: &[&str], shaders: Option<&Path>) -> Outcome {
     run(command.arg("hard").args(arguments).envs(shaders.map(|folder| ("SHADERS", folder))))
 }
 
-/// The cells of the line that begins with a word, behind a heading.
+/// The cells of the line that begins with a word, after a heading.
 fn line(outcome: &Outcome, heading: &str, word: &str) -> Vec<String> {
     let mut lines = outcome.out.lines().skip_while(|line| !line.starts_with(heading));
     let found = lines.find(|line| line.starts_with(word)).expect("a line");
@@ -45,7 +45,8 @@ fn the_same_seed_draws_the_same_rays() {
 
 #[test]
 fn one_wrong_digit_of_ours_fails() {
-    // The product's rounding error is lost, by fma() and by halves: two floats are then no better than one.
+    // The product's rounding error is lost, both by fma() and by halves, so two floats are no better than
+    // one.
     let file = "common/error_free.glsl";
     let shaders = shaders_with(file, "= fma(a, b, -product)", "= 0.0 * fma(a, b, -product)");
     replace_line(shaders.path(), file, "= ((x.x * y.x", "= 0.0 * ((x.x * y.x");

@@ -1,4 +1,4 @@
-//! The book is what the code says: the real one, and that every fault in a small one is found.
+//! Checks that the book agrees with the code, and that every fault in a small book is found.
 
 mod author;
 mod exercises;
@@ -30,8 +30,8 @@ fn the_book_is_current() {
     assert_eq!(outcome.code, 0, "\n{}{}", outcome.out, outcome.err);
 }
 
-/// The pictures of chapters whose code or shaders differ from the last commit are what their commands give; all
-/// others are compared at night, by `cargo chapters verify`.
+/// The pictures of chapters edited since the last commit are those their commands make; all others are
+/// compared at night, by `cargo chapters verify`.
 #[test]
 fn pictures_of_edited_chapters_are_what_their_commands_give() {
     let outcome = run(Command::new(env!("CARGO_BIN_EXE_chapters")).args(["verify", "--changed"]));
@@ -46,10 +46,10 @@ fn a_whole_project_has_no_faults_and_nothing_to_renew() {
     assert_eq!((outcome.code, &*outcome.out, &*outcome.err), (0, "", ""));
 }
 
-/// One fault: how it is made, and what `check` must begin and end a line with.
+/// One fault: a function that makes it, and the start and end of the line that `check` must print.
 type Case = (&'static str, fn(&Fixture), &'static str, &'static str);
 
-/// Holds that each fault is found, and found alone; if `mended`, that `sync` mends it.
+/// Checks that each fault is found, and no other; if it is in `mended`, that `sync` fixes it.
 fn expect(cases: &[Case], mended: &[&str]) {
     for (name, break_it, start, end) in cases {
         let fixture = Fixture::new();
@@ -103,7 +103,7 @@ fn files_of_windows_are_the_same_book() {
 #[test]
 fn a_program_that_is_not_built_is_named_with_its_cure() {
     let fixture = Fixture::new();
-    // Linked, not copied: while another test starts a program, a file just written may count as busy.
+    // Linked, not copied: while another test starts a program, a newly written file may be busy.
     let tool = Path::new(env!("CARGO_BIN_EXE_chapters"));
     let apart =
         tempfile::tempdir_in(tool.parent().expect("its folder")).expect("a folder beside it");
@@ -117,11 +117,11 @@ fn a_program_that_is_not_built_is_named_with_its_cure() {
     };
     let (unbuilt, build) = ("the program '02_basic' is not built", "run: cargo build --bins");
     assert_eq!(check(), format!("Cargo.toml:1: {unbuilt}; {build}\n"));
-    // Whether it takes arguments of its own, only the program knows; all that are missing are one line.
+    // Only the program knows its own arguments; all missing programs are reported in one line.
     fixture.replace("docs/01_one.md", "Its call:", "`cargo run --bin 01_one -- --own`:");
     let unbuilt = "the program '01_one' is not built, and another cannot be asked either";
     assert_eq!(check(), format!("Cargo.toml:1: {unbuilt}; {build}\n"));
-    // A system that starts no program is no fault of the book.
+    // A system that cannot start programs is not a fault of the book.
     if cfg!(unix) {
         fs::write(apart.path().join("02_basic"), "nobody may run this").expect("a file");
         let (outcome, line) =
@@ -153,7 +153,7 @@ fn a_comparison_is_plain_when_piped() {
             refused.err
         );
     }
-    // A chapter's parent is the older one, whichever is named first; pages are compared if one asks for it.
+    // A chapter's parent is the older one, whichever is named first; pages are only compared on request.
     let both = fixture.run(&["diff", "01", "02"]).out;
     assert_eq!(fixture.run(&["diff", "02", "01"]).out, both);
     assert!(both.contains("\nRead these first: main.rs, "), "{both}");

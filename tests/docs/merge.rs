@@ -1,4 +1,4 @@
-//! `merge`: the parts of a long render become one file, or the picture, and nothing is counted twice.
+//! `merge`: the parts of a long render become one file, or the picture, and no sample counts twice.
 
 use std::fs;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use instruments::sums::{Header, Origin, Sums};
 
 use crate::fixture::Fixture;
 
-/// A file with so many samples of a picture of one pixel, each of them 1.
+/// A file with these samples of a picture of one pixel, each of value 1.
 fn part(fixture: &Fixture, name: &str, samples: Range<u32>) {
     let sum = i128::from(samples.end - samples.start) << 64;
     let origin = Origin { size: [1, 1], shaders: Some(0), ..Origin::default() };
@@ -27,7 +27,7 @@ fn parts_become_a_file_and_a_picture() {
         ["a.sums", "b.sums", "late.sums", "all.sums", "all.exr"].map(file);
     let merged = fixture.run(&["merge", &all, &a, &b]);
     assert_eq!(merged.out, format!("{all}: 6 samples, 0..4, 6..8; 4..6 are missing\n"));
-    // Into a file that is one of those that are merged, too.
+    // The output may be one of the merged files.
     let merged = fixture.run(&["merge", &all, &late, &all, "--samples", "0..8"]);
     assert_eq!((merged.code, &*merged.err), (0, ""));
     assert_eq!(merged.out, format!("{all}: 8 samples, 0..8\n"));

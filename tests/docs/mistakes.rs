@@ -1,4 +1,4 @@
-//! Classic mistakes: each patch fits, and does to the picture what its file claims.
+//! Classic mistakes: each patch applies, and has the effect its file claims.
 
 #[cfg(unix)]
 use std::path::Path;
@@ -32,10 +32,10 @@ fn tool(arguments: &[&str]) -> (i32, String, String) {
     (outcome.code, outcome.out, outcome.err)
 }
 
-/// The chapters whose first mistake is tried by day. `chapters check` holds that every patch fits.
+/// The chapters whose first mistake is run by day. `chapters check` makes sure that every patch applies.
 const BY_DAY: [&str; 3] = ["02_basic", "05_shadow_miss", "22_solids"];
 
-/// A few mistakes, and what has been edited since the last commit.
+/// A few mistakes, and those edited since the last commit.
 #[test]
 fn mistakes_in_shaders_do_what_their_files_claim() {
     let (in_rust, changed) = (in_rust(), ::run::changed());
@@ -70,7 +70,7 @@ fn every_mistake_in_shaders_does_what_its_file_claims() {
     assert!(out.lines().count() >= 24, "{out}");
 }
 
-/// A Radeon that is not there, by its own driver: only the right program is run on it.
+/// On a Radeon's own driver, without the card: only the correct program is run.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_is_undefined_is_not_tried_on_a_gpu() {
@@ -91,7 +91,7 @@ fn what_is_undefined_is_not_tried_on_a_gpu() {
     }
 }
 
-/// Builds the chapter anew for each patch.
+/// Rebuilds the chapter for each patch.
 #[test]
 #[ignore = "nightly: builds patched copies; quick: mistakes::mistakes_in_shaders_do_what_their_files_claim"]
 fn every_mistake_in_rust_does_what_its_file_claims() {
@@ -124,15 +124,15 @@ fn a_copy_of_the_rust_code_is_a_project_that_cargo_takes() {
     let out = out.to_str().expect("a path of letters");
     let (code, said, err) = tool(&["table_stride", "--out", out]);
     assert_eq!(code, 0, "{err}");
-    // What is undefined is shown to no GPU.
+    // Undefined behaviour never runs on a GPU.
     let device = "-- --device llvmpipe";
     let command = format!("--manifest-path {out}/Cargo.toml --bin 07_multi_closest_hit {device}\n");
     assert!(said.ends_with(&command), "{said}");
     let patched =
         std::fs::read_to_string(format!("{out}/common/src/gpu/pipeline/sbt.rs")).expect("a copy");
     assert!(patched.contains(".min().unwrap_or(0);"), "{patched}");
-    // Every member of the workspace must be there. What they depend on need not be: a machine has downloaded
-    // only what it builds.
+    // Every member of the workspace must exist. Their dependencies need not: a machine has only downloaded
+    // those it builds.
     let cargo = std::env::var_os("CARGO").expect("Cargo runs tests");
     let mut metadata = Command::new(cargo);
     metadata.args(["metadata", "--no-deps", "--offline", "--format-version", "1"]);
@@ -188,7 +188,7 @@ fn a_copy_that_a_signal_stops_is_not_left_half_made() {
     assert!(stopped > 0, "no signal came in time");
 }
 
-/// Number of files below a folder.
+/// The number of files below a folder.
 #[cfg(unix)]
 fn files(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.unwrap().path());
@@ -245,10 +245,10 @@ fn a_picture_is_made_and_verified() {
     let outcome = fixture.run(&["sync", "--pictures"]);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
     assert_eq!(fixture.check(), "");
-    // No picture shows a sentence of the page.
+    // The picture does not depend on the page's text.
     fixture.replace("docs/mistakes/pale.diff", "Cause: c", "Cause: d");
     assert_eq!(fixture.check(), "");
-    // Another patch makes another picture: only running it tells.
+    // Another patch may make another picture; only a run can tell.
     fixture.replace("docs/mistakes/pale.diff", "vec4(1.0)", "vec4(0.5)");
     assert_eq!(fixture.check(), "");
     let outcome = fixture.run(&["verify", "pale"]);

@@ -1,4 +1,4 @@
-//! A chapter made by the tool: whole but for its pictures and what is to be written.
+//! A chapter made by the tool: complete except for its pictures and the text to be written.
 
 #[cfg(unix)]
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
     let exercise = fixture.read("docs/exercises/07.1.diff");
     assert!(exercise.contains("Expect: same as 02_basic\n"), "{exercise}");
     assert!(fixture.read("docs/07_soft_light.md").contains("<!-- exercises 07_soft_light -->\n"));
-    // What is copied is what runs: the shaders differ in nothing.
+    // The copied shaders are identical to the parent's.
     let shader = |chapter: &str| fixture.read(&format!("shaders/{chapter}/shade.rchit"));
     assert_eq!(shader("07_soft_light"), shader("02_basic"));
     let found = fixture.check();
@@ -67,7 +67,7 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
     assert!(written >= 5, "the page does not say where to write:\n{found}");
 }
 
-/// A copy of the project's code in which every chapter that may be a parent, of those that are chosen, has a child.
+/// A copy of the project's code in which each chosen chapter that can be a parent has a child.
 fn with_a_child_of_each(is_chosen: impl Fn(&str) -> bool) -> (TempDir, Vec<[String; 2]>) {
     let project = tempfile::tempdir().expect("a temporary folder");
     let (from, to) = (root(), project.path());
@@ -97,7 +97,7 @@ fn with_a_child_of_each(is_chosen: impl Fn(&str) -> bool) -> (TempDir, Vec<[Stri
     (project, children)
 }
 
-/// Of the parents by day, the first is plain, the second has callable shaders, and the third draws.
+/// By day there are three parents: a plain one, one with callable shaders, and one that draws.
 #[test]
 fn a_child_has_all_that_its_parent_renders_with() {
     let by_day = ["02_basic", "13_callable_shader", "17_ray_query_raster"];
@@ -120,7 +120,7 @@ fn children_have_all(is_chosen: impl Fn(&str) -> bool) {
             text.lines().skip_while(|line| line.starts_with("//!")).collect::<Vec<_>>().join("\n")
         };
         assert_eq!(code(&parent), code(&child));
-        // The parent's program, with the child's shaders.
+        // The parent's program with the child's shaders.
         let before = ::run::render(&parent, "16x10", &[]).picture;
         fs::remove_dir_all(shaders.join(&parent)).expect("a folder");
         fs::rename(shaders.join(&child), shaders.join(&parent)).expect("a folder");
@@ -165,7 +165,7 @@ fn parts_of_the_book_head_the_list_the_gallery_and_the_contents() {
     assert!(fixture.read("README.md").contains("\n### II · Break it\n\n| [![02 · Basic]"));
     let summary = fixture.read("docs/SUMMARY.md");
     assert!(summary.contains("# I · Make it\n\n- [01 · One](01_one.md)\n\n# II"), "{summary}");
-    // A new chapter belongs where its parent does.
+    // A new chapter goes to the same part as its parent.
     assert_eq!(fixture.run(&["new", "7", "soft_light", "--from", "02"]).code, 0);
     assert!(fixture.run(&["list"]).out.ends_with("say here, in a line, what it teaches\n"));
     let found = fixture.check();
@@ -261,7 +261,7 @@ fn a_chapter_that_a_signal_stops_is_whole_or_not_begun() {
     println!("{counts:?}: not begun, whole");
 }
 
-/// The files of a project, and what each holds.
+/// The files of a project, and their contents.
 #[cfg(unix)]
 fn files(fixture: &Fixture) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();

@@ -1,4 +1,5 @@
-//! Tests that plain `cargo test` leaves out: each says how it is run, and `chapters nightly` runs those for the night.
+//! Tests that plain `cargo test` leaves out: each says how it is run, and `chapters nightly` runs those
+//! marked for the night.
 
 #[cfg(unix)]
 use std::fs;
@@ -11,7 +12,7 @@ use crate::fixture::run;
 
 const FILE: &str = "tests/samples/basic.rs";
 
-/// A project with a quick test and one that is left out for this reason.
+/// A project with a quick test and one that is ignored for this reason.
 fn project(why: &str) -> Fixture {
     let fixture = Fixture::new();
     let slow = format!("\n#[test]\n#[ignore = \"{why}\"]\nfn second() {{}}\n");
@@ -59,7 +60,7 @@ fn what_runs_at_night_is_listed_by_program() {
     assert_eq!(project("by hand: draws").run(&["nightly", "--list"]).out, "");
 }
 
-/// A script takes the place of Cargo.
+/// A script stands in for Cargo.
 #[cfg(unix)]
 #[test]
 fn a_night_runs_each_program_s_tests_and_fails_if_one_does() {

@@ -135,7 +135,7 @@ fn a_picture_that_is_rendered_larger_is_shown_smaller_and_smooth() {
     };
     let (plain, smooth) = (of("960x60"), of("1920x120"));
     assert_eq!(smooth.dimensions(), plain.dimensions());
-    // Edges have more tones, and the picture is the same but for them.
+    // Antialiased edges differ; the rest of the picture is the same.
     let differ = plain
         .pixels()
         .zip(smooth.pixels())
@@ -163,7 +163,7 @@ fn several_commands_make_panels_with_their_labels() {
     );
     assert_eq!(fixture.check(), "");
     let two = image::open(fixture.path("docs/images/two.png")).expect("a picture").to_rgb8();
-    // Side by side under labels of one height, and not twice the same.
+    // Side by side under labels of the same height, and not the same picture twice.
     assert_eq!(two.dimensions(), (2 * 96 + 6, 60 + 22));
     assert!((0..96).any(|x| two.get_pixel(x, 50) != two.get_pixel(x + 102, 50)));
     let inked =

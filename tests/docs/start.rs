@@ -1,5 +1,5 @@
-//! A crate of a reader's own, made by the tool: whole, and pinned to what the book is tested with. That it is built
-//! with nothing else and runs, a nightly test of `tests/window` holds; that its program draws, the template's own.
+//! A reader's own crate, made by the tool: complete, and pinned to the versions the book is tested with. A
+//! nightly test of `tests/window` builds and runs it; the template has a test of its own for the picture.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,7 +20,7 @@ fn table(file: &Path) -> toml::Table {
     fs::read_to_string(file).expect("a file").parse().expect("it is TOML")
 }
 
-/// The packages of a lock file: name, version, and where each comes from.
+/// The packages of a lock file: name, version and source of each.
 fn locked(file: &Path) -> BTreeSet<[String; 3]> {
     let lock = table(file);
     let text = |package: &toml::Value, key: &str| {
@@ -49,7 +49,7 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
         let text = fs::read_to_string(folder.join(file)).expect("what is told is there");
         assert!(file == "Cargo.lock" || !text.contains("my_tracer"), "{file}");
     }
-    // Cargo takes from the lock file what it needs, asks no registry, and takes nothing else.
+    // Cargo takes all versions from the lock file, without asking a registry.
     let cargo = Command::new(env!("CARGO"))
         .args(["update", "--workspace", "--offline", "--quiet"])
         .current_dir(&folder)
@@ -60,7 +60,7 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
         (locked(&folder.join("Cargo.lock")), locked(&::run::root().join("Cargo.lock")));
     let new: Vec<_> = own.difference(&book).map(|[name, ..]| name.as_str()).collect();
     assert_eq!(new, ["glow"]);
-    // What the book has compiled is used, by the same compiler of C++.
+    // The crate uses the results of the book's build, with the same C++ compiler.
     let settings = table(&folder.join(".cargo/config.toml"));
     let target = Path::new(env!("CARGO_BIN_EXE_chapters")).ancestors().nth(2).expect("a folder");
     let shared = settings["build"]["build-dir"].as_str().expect("a path");
@@ -72,7 +72,7 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
         let own = Path::new(settings["env"][name].as_str().expect("a path"));
         assert_eq!(own, value.canonicalize().expect("a file"));
     }
-    // What the profile names is there: Cargo would warn of the rest.
+    // Everything the profile names exists; otherwise Cargo would warn.
     let manifest = table(&folder.join("Cargo.toml"));
     let profile = &manifest["profile"]["dev"];
     assert_eq!(*profile, {
@@ -88,7 +88,7 @@ fn a_crate_of_one_s_own_is_whole_and_pinned() {
 fn the_framework_may_come_from_a_git_repository() {
     let above = tempfile::tempdir().expect("a temporary folder");
     let folder = above.path().join("glow");
-    // A folder that is empty will do, and stays.
+    // An existing empty folder is accepted and kept.
     fs::create_dir(&folder).expect("a folder");
     let outcome = start(&["--git", "https://example.org/a\"b"], &folder);
     assert_eq!(outcome.code, 0, "{}", outcome.err);
@@ -108,7 +108,7 @@ fn a_crate_may_be_built_apart() {
     assert!(!outcome.out.contains("config.toml") && !folder.join(".cargo").exists());
 }
 
-/// The files of the template are a reader's own: they know of no chapter, and have no marks for pages.
+/// The files of the template become the reader's own: they mention no chapter, and have no marks for pages.
 #[test]
 fn a_crate_of_one_s_own_speaks_of_no_chapter() {
     let above = tempfile::tempdir().expect("a temporary folder");
@@ -117,7 +117,7 @@ fn a_crate_of_one_s_own_speaks_of_no_chapter() {
     for file in outcome.out.lines().take_while(|line| !line.is_empty()) {
         let text = fs::read_to_string(folder.join(file)).expect("what is told is there");
         for word in ["ANCHOR", "chapter", "Taught by"] {
-            // The book's own crates stand in the lock until Cargo drops them.
+            // The lock file lists the book's own crates until Cargo drops them.
             assert!(file == "Cargo.lock" || !text.contains(word), "{file}: {word}");
         }
     }
@@ -147,7 +147,7 @@ fn frames_of_a_program_of_one_s_own_make_an_animation() {
     assert!(fs::read(&out).expect("a file").windows(4).any(|part| part == b"acTL"));
 }
 
-/// What `map_Kd` names is looked up at the hit.
+/// The texture named by `map_Kd` is sampled at the hit.
 #[test]
 fn a_texture_of_one_s_own_model_is_shown() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -176,7 +176,7 @@ fn a_texture_of_one_s_own_model_is_shown() {
     assert!(red.abs_diff_eq(plain * Vec3::X, 1e-5), "{red} instead of {}", plain * Vec3::X);
 }
 
-/// A program as it is after some steps of the page, on a ground of its own, which is grey.
+/// The program after some steps of the page, on its own grey ground.
 struct Stepped {
     name: &'static str,
     folder: tempfile::TempDir,
@@ -190,7 +190,7 @@ impl Stepped {
         Self { name, folder }
     }
 
-    /// Overwrites the shaders that these steps change.
+    /// Overwrites the shaders these steps change.
     fn with(self, steps: &[&str]) -> Self {
         for step in steps {
             let own = ::run::root().join("docs/chapters/start").join(step).join("shaders");
@@ -236,7 +236,7 @@ fn a_lamp_of_the_page_lights_the_ground() {
         let eye = ["camera eye=-0.5,3,1.9", "camera target=-0.5,0,1.8999"];
         program.pixels("1x1", &[&[lamps], &eye[..]].concat())[0]
     };
-    // The first lamp stands at (0, 0.35, 1.9).
+    // The first lamp is at (0, 0.35, 1.9).
     let way = Vec3::new(0.5, 0.35, 0.0);
     let arriving = Vec3::new(0.0, 0.04, 0.15) / way.length_squared() * (0.35 / way.length());
     let light = 0.5 * arriving / std::f32::consts::PI;
@@ -280,7 +280,8 @@ fn the_sphere_of_the_page_is_lit_as_a_sphere_and_the_bowl_is_its_lower_half() {
     let half = (camera.fov_y / 2.0).to_radians().tan();
     let (low, high) = (Vec3::new(0.16, 0.14, 0.12), Vec3::new(0.42, 0.47, 0.55));
     let sphere = program.pixels("60x60", &settings);
-    // The direction from the center to the point in each pixel, where that is the sphere and not near its outline.
+    // The direction from the sphere's center to the point in each pixel, for pixels of the sphere that are
+    // not near its outline.
     let outward = |i: usize| {
         let [x, y] = [i % 60, 59 - i / 60].map(|i| (2.0 * i as f64 + 1.0) / 60.0 - 1.0);
         let ray = (forward + half * (x * right + y * up)).normalize();
@@ -328,7 +329,7 @@ fn a_crate_that_cannot_be_is_refused_and_nothing_is_written() {
         assert!(outcome.err.contains(words), "{folder:?}: {}", outcome.err);
         assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
     }
-    // A file is in the way of the folder above.
+    // The folder's parent is a file.
     let outcome = start(&[], &used.join("notes/glow"));
     assert_eq!((outcome.code, &*outcome.out), (1, ""), "{}", outcome.err);
     let names = |folder: &Path| -> Vec<_> {

@@ -1,4 +1,4 @@
-//! The report card of a device: what is on it when all is well, and how each failure looks.
+//! The report card of a device: its contents when all is well, and the report of each kind of failure.
 
 use std::env::consts::EXE_SUFFIX;
 use std::fs;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use crate::fixture::{Fixture, Outcome, run};
 use crate::{Case, expect};
 
-/// A project whose golden pictures are what its programs render.
+/// A project whose golden pictures come from its own programs.
 fn project() -> Fixture {
     let fixture = Fixture::new();
     for name in ["01_one", "02_basic"] {
@@ -23,7 +23,7 @@ fn project() -> Fixture {
     fixture
 }
 
-/// The tool beside programs: real ones where no script takes their place.
+/// The tool next to programs: real ones, unless a script replaces them.
 fn programs(scripts: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = |name: &str| folder.path().join(format!("{name}{EXE_SUFFIX}"));
@@ -49,7 +49,7 @@ fn executable(_: &Path, _: &str) {
     unreachable!("scripts stand in for programs on Unix alone");
 }
 
-/// Surveys a project; returns the tool's end and the card.
+/// Surveys a project; returns the tool's result and the card.
 fn survey(
     project: &Fixture,
     programs: &Path,
@@ -79,7 +79,7 @@ fn survey(
     (outcome, serde_json::from_str(&text).expect("JSON"), sheet)
 }
 
-/// The lines of a card that has two failures, by chapter.
+/// The lines of a card with two failures, by chapter.
 #[track_caller]
 fn failures((outcome, card, sheet): (Outcome, Value, String)) -> [String; 2] {
     assert_eq!(outcome.code, 1, "{}{}", outcome.out, outcome.err);
@@ -110,13 +110,13 @@ fn a_card_tells_what_was_run_and_fills_the_page() {
     assert!(
         sheet.contains("\n| vendor and device | 0x") && sheet.contains("\n| limits | recursion ")
     );
-    // The fixture has no history; a project that has one is named by its commit.
+    // The fixture is not a Git repository; a project that is one is identified by its commit.
     assert_eq!(card["commit"], Value::Null);
     for chapter in card["chapters"].as_array().expect("chapters") {
         assert_eq!((&chapter["failed"], &chapter["mean_flip"]), (&Value::Null, &0.0.into()));
         assert!(chapter["milliseconds"].as_f64() > Some(0.0), "{chapter}");
     }
-    // The page shows it, and check is content.
+    // The page shows the card, and check finds no fault.
     let words = device.to_lowercase();
     let words = words.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let file = format!("docs/devices/{}.json", words.collect::<Vec<_>>().join("-"));
@@ -158,7 +158,7 @@ fn a_missing_driver_is_told_once_before_anything_runs() {
     assert!(cards.path().read_dir().expect("a folder").next().is_none());
 }
 
-/// A Radeon that is not there has a whole driver, which passes everything but the look at its pictures.
+/// A Radeon stand-in has a complete driver, which passes everything except the comparison of pictures.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_device_that_executes_nothing_is_told_once_and_gets_no_card() {
@@ -273,7 +273,7 @@ fn a_place_that_takes_no_card_is_refused_before_anything_runs() {
     }
 }
 
-/// A card that is whole.
+/// A complete card.
 const CARD: &str = r#"{
   "date": "2026-11-22", "system": "linux x86_64", "validated": true, "tolerance": 0.002,
   "device": {"name": "A card", "driver": "d", "vulkan": [1, 3, 0]},
@@ -353,7 +353,7 @@ fn a_signal_ends_a_survey_and_nothing_is_left() {
     let (project, programs) =
         (project(), programs(&[("01_one", "echo $$ > started; exec sleep 60")]));
     let [cards, temporary] = [(); 2].map(|()| tempfile::tempdir().expect("a temporary folder"));
-    // Where the tests run under nohup, it would begin with a signal ignored.
+    // Under nohup, the test would start with a signal ignored.
     let mut command = Command::new("env");
     command.arg("--default-signal=TERM,INT,HUP").arg(programs.path().join("chapters"));
     command.args(["survey", "--out"]).arg(cards.path()).arg("--root").arg(project.path(""));

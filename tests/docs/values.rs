@@ -1,6 +1,7 @@
-//! Measured values on pages: compared with what is stored, which `measure` renews and `verify` compares again.
+//! Measured values on pages: compared with the stored ones, which `measure` renews and `verify` compares
+//! again.
 //!
-//! A script takes the place of `cargo`: what a test would give, it writes.
+//! A script stands in for `cargo` and writes the values a test would give.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -11,7 +12,7 @@ const PAGE: &str = "docs/02_basic.md";
 const FILE: &str = "docs/values/02_basic.json";
 const TABLES: &str = "docs/values/02_basic.md";
 
-/// The first line behind the text.
+/// The first line after the text.
 const BELOW: &str = "<!-- diff 01_one";
 
 /// A paragraph, a table and a stamp.
@@ -58,7 +59,7 @@ fn project() -> Fixture {
     fixture
 }
 
-/// Runs the tool where the test would give these values.
+/// Runs the tool with a test that gives these values.
 fn with_cargo(fixture: &Fixture, arguments: &[&str], values: &str) -> Outcome {
     let given = format!(
         r#"{{ "timed": false, "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "driver": "Mesa 25.0.7-2", "values": {{ {values} }} }}"#
@@ -73,7 +74,7 @@ fn with_cargo(fixture: &Fixture, arguments: &[&str], values: &str) -> Outcome {
     run(fixture.command(arguments).env("CARGO", &cargo))
 }
 
-/// One fault: how it is made, and the lines that `check` must give, each by its start and end.
+/// One fault: a function that makes it, and the lines that `check` must print, each by its start and end.
 type Case = (&'static str, fn(&Fixture), &'static [(&'static str, &'static str)]);
 
 #[test]
@@ -255,7 +256,7 @@ fn verify_runs_the_commands_again_and_names_what_differs() {
     let value = "02_basic/rows: off was 3, is 4; run: cargo chapters measure 02_basic/rows";
     assert!(differ(value, ""), "{}", outcome.out);
     assert!(outcome.err.ends_with(" differ\n"), "{}", outcome.err);
-    // Text alone makes no other picture, and what has not changed is not written again.
+    // A change of text makes no other picture, and unchanged values are not written again.
     fixture.replace(
         "shaders/02_basic/camera.rgen",
         "ivec2(id), 0.5 * payload)",
@@ -311,7 +312,7 @@ fn what_cannot_be_measured_is_named() {
     );
 }
 
-/// Asserts that `check` gives these lines and no other.
+/// Asserts that `check` prints exactly these lines.
 fn expect(name: &str, fixture: &Fixture, lines: &[(&str, &str)]) {
     let found = fixture.check();
     for (start, end) in lines {

@@ -1,4 +1,4 @@
-//! A solution with one number that is wrong is refused, unless its exercise says why the picture is the same.
+//! A solution with one wrong number is rejected, unless its exercise explains why the picture is the same.
 
 use std::process::Command;
 

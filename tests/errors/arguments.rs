@@ -1,4 +1,5 @@
-//! Options, controls, sizes, devices: wrong arguments end with 2 and say what would be right.
+//! Options, controls, sizes, devices: wrong arguments exit with code 2 and a message that says what is
+//! accepted.
 
 use crate::{refused, refused_by, sample};
 
@@ -157,7 +158,7 @@ fn controls() {
             assert!(code == 2 && line.contains(&control), "{line}");
         }
     }
-    // Each setting is held against the rules, not only the last of a name.
+    // Every setting is validated, not only the last one of a name.
     refused(&["--set", "show=bogus", "--set", "show=normal"], 2, &["'bogus'"]);
 }
 
@@ -170,7 +171,7 @@ fn comparisons() {
         ("show=picture|nothing", "control 'show' cannot be 'nothing'"),
         ("sun azimuth=0|1|NaN", "control 'sun azimuth' cannot be 'NaN'"),
     ] {
-        // Before any of so many frames is rendered.
+        // Refused before the first of that many frames.
         refused(&["--frames", "4000000000", "--compare", comparison], 2, &[words]);
     }
 }
@@ -183,7 +184,7 @@ fn sizes() {
     {
         refused_by(sized(size), 2, &[&format!("invalid value '{size}'"), whole]);
     }
-    // No device has so large an image, or traces so many rays at once.
+    // No device supports an image of this size, or that many rays at once.
     for size in ["4294967295x1", "1x4294967295", "4294967295x4294967295"] {
         refused_by(sized(size), 2, &[&format!("{size} is too large for "), " a side and "]);
     }
@@ -200,7 +201,7 @@ fn sized(size: &str) -> std::process::Command {
 
 #[test]
 fn memory_that_cannot_be_had() {
-    // The list of hits takes 4.4 GB here, and the software driver's buffers hold at most 2.
+    // The list of hits needs 4.4 GB here, and a buffer of the software driver holds at most 2.
     let arguments = ["--headless", "--size", "16384x700", "--set", "mode=all hits"];
     let software = ["--device", "llvmpipe"];
     let (code, line) = run::refused("03_any_hit", &[&arguments[..], &software].concat());

@@ -1,4 +1,4 @@
-//! Calls of Vulkan that fail: each is answered in one line, and nothing is left or freed too early.
+//! Failing Vulkan calls: each is reported in one line, and nothing is leaked or freed too early.
 
 use std::path::Path;
 use std::process::Output;
@@ -15,7 +15,7 @@ fn counted(sample: &str, layer: &Layer, calls: &Path) -> Output {
     command.arg("--out").arg(calls.with_extension("png")).output().expect("the sample starts")
 }
 
-/// Lets calls of a sample fail; whether each is answered.
+/// Makes calls of a sample fail; returns whether each is reported.
 fn is_safe(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
     each_is_answered(sample, |layer, calls| counted(sample, layer, calls), numbers)
 }
@@ -23,7 +23,7 @@ fn is_safe(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
 #[test]
 fn the_first_and_the_last_call_of_each_function_may_fail() {
     assert!(is_safe("01_foundation", ends));
-    // It has a compute shader, updates and copies beside the framework's usual objects.
+    // In addition to the framework's usual objects, it has a compute shader, updates and copies.
     assert!(is_safe("14_animation", ends));
 }
 
@@ -38,7 +38,7 @@ fn on_a_card_with_memory_of_its_own_each_of_them_may_fail_too() {
     assert!(is_safe_on_a_card(all));
 }
 
-/// Uploads go to memory of the device that the host can map, or to the host's own if there is no room.
+/// Uploads go to device memory the host can map, or to host memory if there is no room.
 fn is_safe_on_a_card(numbers: impl Fn(usize) -> Vec<usize>) -> bool {
     let card = Layer::minimum_limits("bar");
     let run = |layer: &Layer, calls: &Path| {
@@ -58,7 +58,7 @@ fn every_call_of_every_chapter_may_fail() {
     assert!(chapters.is_empty(), "{chapters:?}");
 }
 
-/// A sample in which a call fails.
+/// Runs a sample with a failing call.
 fn run(sample: &str, fault: &str) -> Output {
     let folder = tempfile::tempdir().unwrap();
     counted(sample, &Layer::fail_nth_call(fault), &folder.path().join("calls"))

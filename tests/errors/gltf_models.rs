@@ -1,5 +1,5 @@
-//! The glTF 2 files that Debian packages of another reader's tests (assimp-testmodels): each is shown as a small reader
-//! of our own reads it, or refused in one line.
+//! The glTF 2 files of Debian's assimp-testmodels, written to test another reader: each is shown as a small
+//! reader of our own reads it, or refused in one line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::sample;
 
-/// The place of the package.
+/// The folder of the package.
 const FOLDER: &str = "/usr/share/assimp/models/glTF2";
 
 /// Files that cannot be shown, by the end of their path, and the reason.
@@ -40,7 +40,8 @@ const REFUSED: [(&str, &str); 23] = [
     ("badUint.gltf", ": line 128: a value of another type than glTF 2 has here"),
 ];
 
-/// Files whose corners are not where their accessors say: one has a skin, the other an index that leads nowhere.
+/// Files whose vertices are not at the positions in their accessors: one has a skin, the other an index out
+/// of range.
 const MOVED: [&str; 2] = ["simple_skin.gltf", "IndexOutOfRange.gltf"];
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -73,7 +74,7 @@ fn numbers(value: &Value) -> Vec<f32> {
         .unwrap_or_default()
 }
 
-/// The triangles of a node and of those below it, and the box around them, by the bounds of their accessors.
+/// Adds the triangles of a node and its children, and their bounding box, from the bounds of their accessors.
 fn add(root: &Value, node: usize, parent: Mat4, count: &mut usize, bounds: &mut [Vec3; 2]) {
     let node = &root["nodes"][node];
     let three = |key: &str, usual: f32| match &numbers(&node[key])[..] {
@@ -106,7 +107,7 @@ fn add(root: &Value, node: usize, parent: Mat4, count: &mut usize, bounds: &mut 
         };
         let (low, high) = (numbers(&positions["min"]), numbers(&positions["max"]));
         if low.is_empty() {
-            // A file without bounds says nothing of its size.
+            // Without bounds, the file does not reveal its size.
             *bounds = [Vec3::NAN; 2];
             continue;
         }

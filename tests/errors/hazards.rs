@@ -1,8 +1,8 @@
-//! Synchronization validation is on, whatever layer is installed and however it wants to be told.
+//! Synchronization validation is enabled for every version of the layer, which differ in how it is requested.
 
 use run::layer::Layer;
 
-/// 01 makes an instance of its own, and 02 that of all others.
+/// 01 creates its own instance, and 02 creates the one shared by all others.
 #[test]
 fn a_copy_made_twice_with_nothing_between_is_a_hazard() {
     let layer = Layer::fail_nth_call("vkCmdCopyImageToBuffer");

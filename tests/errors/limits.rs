@@ -1,4 +1,4 @@
-//! Files that would take all the memory there is: refused, or shown without, before it is taken.
+//! Files that would exhaust memory: refused, or shown without the offending part, before it is allocated.
 
 use std::fs;
 use std::io::Write;
@@ -11,7 +11,7 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const HEAD: &str =
     "version = 1\n[camera]\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nfield_of_view = 40\n";
 
-/// A chapter with the file `name` of this folder as its scene: what it says, and what it takes.
+/// Runs a chapter with the file `name` of this folder as its scene; returns its messages and its memory.
 fn run(chapter: &str, folder: &TempDir, name: &str) -> (String, Spent) {
     let mut command = run::command(chapter);
     command.current_dir(folder).args(["--headless", "--size", "8x8", "--scene", name]);
@@ -22,7 +22,7 @@ fn run(chapter: &str, folder: &TempDir, name: &str) -> (String, Spent) {
     (line, spent)
 }
 
-/// As [`run`]: what it says, and the bytes that it takes beyond those of a triangle.
+/// As [`run`], with the bytes it needs beyond those of a single triangle.
 fn run_beyond(chapter: &str, folder: &TempDir, name: &str) -> (bool, String, u64) {
     let (line, spent) = run(chapter, folder, name);
     fs::write(folder.path().join("least.obj"), TRIANGLE).unwrap();
@@ -88,7 +88,7 @@ fn a_model_of_too_many_triangles_is_refused_before_it_takes_the_memory() {
     assert!(peak < 44_000_000 + 2 * 40 * 6_500_000, "{peak}");
 }
 
-/// Polygons are the smallest files of many triangles, and their corners share no vertices.
+/// Polygons give the most triangles per byte, and their corners share no vertices.
 #[test]
 fn a_model_takes_no_more_memory_than_was_counted() {
     let polygon = format!("f{}\n", " 1 2 3 2".repeat(250));
@@ -99,7 +99,7 @@ fn a_model_takes_no_more_memory_than_was_counted() {
     assert!(line.is_empty(), "{line}");
     let counted = 5 * obj.len() as u64 + (108 + 512) * triangles;
     assert!(peak < counted, "{peak} of {counted}");
-    // Memory of a GPU's own is none of the process.
+    // Memory on a GPU is not part of the process.
     assert!(counted / 2 < peak || !run::device::is_software(), "{peak} of {counted}");
 }
 
@@ -147,12 +147,12 @@ fn a_large_mesh_that_shines_in_many_places_is_refused_before_they_are_listed() {
     assert!(peak < 200 << 20, "{peak}");
 }
 
-/// A model that is refused only after all of it is read.
+/// A model that is only refused after it has been read completely.
 const FAR: &str = "v 0 0 1e30\nf 1 2 -1\n";
 const QUEEN: &str = "[[piece]]\nmesh = \"queen\"\nat = [0, 0, 0]\n";
 const BALL: &str = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"a\"\n";
 
-/// A scene or a model with so many of something, which is read to its end and then refused.
+/// A scene or a model with a given number of items, which is read to its end and then refused.
 struct Grown {
     name: &'static str,
     chapter: &'static str,
@@ -205,7 +205,7 @@ const GROWN: [Grown; 6] = [
 ];
 
 impl Grown {
-    /// The seconds and the bytes that so many take.
+    /// The seconds and the bytes needed for this many items.
     fn spent(&self, count: usize) -> (f64, f64) {
         let folder = folder(&[(self.file, (self.text)(count).as_bytes())]);
         let (line, spent) = run(self.chapter, &folder, self.file);
@@ -218,7 +218,7 @@ impl Grown {
 fn ten_times_as_many_of_anything_are_read_in_ten_times_the_time() {
     for grown in GROWN {
         let [least, few, many] = [1, 10_000, 100_000].map(|count| grown.spent(count).0);
-        // A tenth of a second may go to other things; each with each would take a hundred times as long.
+        // A tenth of a second may be noise; comparing each item with each would take a hundred times as long.
         let [few, many] = [few, many].map(|time| time - least);
         assert!(many < 20.0 * few.max(0.1), "{}: {few} s, then {many} s", grown.name);
     }
@@ -234,14 +234,14 @@ fn reading_grows_with_the_file() {
     run::expected::give_timed("limits/growth", table.into());
 }
 
-/// Adds the milliseconds and megabytes of 1,000 to 100,000 of something, above those of one, to a table;
-/// `spent` gives seconds and bytes.
+/// Adds a row with the milliseconds and megabytes for 1,000 to 100,000 items, minus those for one; `spent`
+/// returns seconds and bytes.
 pub fn add_row(
     table: &mut serde_json::Map<String, serde_json::Value>,
     name: &str,
     spent: impl Fn(usize) -> (f64, f64),
 ) {
-    // The first run may compile what later ones find in the driver's cache.
+    // The first run may compile shaders that later ones find in the driver's cache.
     spent(1);
     let (name, least) = (name.replace(' ', "-"), spent(1));
     for count in [1000, 10_000, 100_000] {

@@ -1,4 +1,4 @@
-//! A machine that lacks something: loader, driver, device, validation layer.
+//! A machine without a loader, a driver, a device or a validation layer.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use crate::{refused_by, sample};
 
 const SETUP: &str = "run ./setup";
 
-/// Variables by which a machine may name its drivers, and their libraries.
+/// Variables that may name a machine's drivers and their libraries.
 const DRIVERS: [&str; 4] =
     ["VK_DRIVER_FILES", "VK_ADD_DRIVER_FILES", run::device::VARIABLE, "LD_LIBRARY_PATH"];
 
-/// The two that make an instance of their own.
+/// The two samples that create their own instance.
 const SAMPLES: [&str; 2] = ["01_foundation", "02_basic"];
 
 #[track_caller]
@@ -21,7 +21,7 @@ fn refused_with(variable: &str, value: impl AsRef<Path>, words: &[&str]) {
     for sample in SAMPLES {
         for argument in ["--headless", "--list-devices"] {
             let mut command = run::command(sample);
-            // It names drivers, too, and would go before the other.
+            // This variable also names drivers, and takes precedence.
             command.arg(argument).env_remove("VK_DRIVER_FILES").env(variable, value.as_ref());
             refused_by(command, 1, words);
         }
@@ -32,7 +32,7 @@ fn refused_with(variable: &str, value: impl AsRef<Path>, words: &[&str]) {
 fn no_loader() {
     let words = ["no Vulkan loader (", SETUP];
     refused_with("VULKAN_LOADER", "/nonexistent", &words);
-    // A file that is no library at all.
+    // A file that is not a library.
     refused_with("VULKAN_LOADER", run::root().join("Cargo.toml"), &words);
 }
 
@@ -45,7 +45,7 @@ fn no_driver() {
     let file = folder.path().join("driver.json");
     fs::write(&file, manifest(Path::new("/nonexistent.so"))).unwrap();
     refused_with("VK_ICD_FILENAMES", &file, &words);
-    // Some loaders pass over a broken manifest, some fail.
+    // Some loaders skip a broken manifest, others fail.
     fs::write(&file, "{").unwrap();
     refused_with("VK_ICD_FILENAMES", &file, &["Vulkan", SETUP]);
 }
@@ -81,13 +81,13 @@ fn no_device_with_ray_tracing() {
     }
 }
 
-/// A driver's manifest, as the loader reads it.
+/// A driver's manifest, in the loader's format.
 fn manifest(library: &Path) -> String {
     let driver = serde_json::json!({ "library_path": library, "api_version": "1.3.0" });
     serde_json::json!({ "file_format_version": "1.0.0", "ICD": driver }).to_string()
 }
 
-/// The library of `driver/`, on which this test depends: cargo puts it beside.
+/// The library of `driver/`; this test depends on it, so cargo puts it in the same folder.
 fn driver() -> PathBuf {
     use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
     let test = std::env::current_exe().expect("a running program has a file");
@@ -103,7 +103,7 @@ fn no_validation_layer() {
 
 #[test]
 fn no_environment_at_all() {
-    // Neither HOME nor PATH nor a language, as in a service; only the drivers that tests run on.
+    // As in a service: no HOME, PATH or language, only the drivers for tests.
     let folder = tempfile::tempdir().unwrap();
     let drivers = DRIVERS.iter().filter_map(|name| Some((name, std::env::var_os(name)?)));
     let status = sample().env_clear().envs(drivers).current_dir(&folder).status().unwrap();
@@ -114,7 +114,8 @@ fn no_environment_at_all() {
 #[test]
 fn no_compiler_for_another_gpu() {
     let mut command = sample();
-    // The variable replaces the folders in which drivers are found, so the device's own driver is named.
+    // The variable replaces the folders in which drivers are found, so the device's own driver has to be
+    // named.
     command.args(["--compile-for", "navi31"]).env("XDG_DATA_DIRS", "/nonexistent");
     let drivers = ["/etc", "/usr/local/share", "/usr/share"]
         .map(|folder| Path::new(folder).join("vulkan/icd.d"))
@@ -134,7 +135,7 @@ fn no_compiler_for_another_gpu() {
     refused_by(command, 1, &["(RADV), which is not installed", SETUP]);
 }
 
-/// A machine whose only driver lies where the loader does not look, so that a variable has to name it.
+/// A machine whose only driver is outside the loader's folders, so that a variable has to name it.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_driver_that_only_a_variable_names_is_enough_for_these_tests() {

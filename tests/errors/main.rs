@@ -1,5 +1,5 @@
-//! Whatever is wrong, a sample says so in one line and ends with 1 (failed) or 2 (wrong arguments):
-//! one module for each kind of input.
+//! Errors of every kind: a sample reports each in one line and exits with 1 (failed) or 2 (wrong arguments).
+//! One module for each kind of input.
 
 mod arguments;
 mod failures;
@@ -22,10 +22,10 @@ mod testmodels;
 
 use std::path::Path;
 
-/// The chapter that stands for all: what is tested here is the framework's.
+/// The chapter that stands for all: the tests are about the framework.
 const SAMPLE: &str = "02_basic";
 
-/// Runs [`SAMPLE`] small and headless and holds its refusal against an exit code and words of its line.
+/// Runs [`SAMPLE`] small and headless, and checks the exit code and the words of its message.
 #[track_caller]
 fn refused(arguments: &[&str], code: i32, words: &[&str]) {
     let mut command = sample();
@@ -33,7 +33,7 @@ fn refused(arguments: &[&str], code: i32, words: &[&str]) {
     refused_by(command, code, words);
 }
 
-/// As [`refused`], for a command of the caller's making.
+/// As [`refused`], for a given command.
 #[track_caller]
 fn refused_by(mut command: std::process::Command, code: i32, words: &[&str]) {
     let (actual, line) = run::refusal(command.output().expect("the sample starts"));

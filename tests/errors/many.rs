@@ -1,5 +1,5 @@
-//! A model of many small parts costs no more calls of Vulkan than one of few: no time, no memory and no limit
-//! of a device goes with their number.
+//! A model of many small parts needs no more Vulkan calls than one of few, so that no time, memory or device
+//! limit depends on their number.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -23,7 +23,7 @@ fn model(folder: &Path, count: usize) {
     fs::write(folder.join("model.mtl"), mtl).unwrap();
 }
 
-/// Number of calls of each function for a model of so many meshes and textures.
+/// The number of calls of each function for a model of this many meshes and textures.
 fn calls(count: usize) -> BTreeMap<String, usize> {
     let folder = tempfile::tempdir().unwrap();
     model(folder.path(), count);
@@ -41,14 +41,14 @@ fn many_meshes_and_textures_take_as_many_buffers_and_submissions_as_few() {
     let (few, many) = (calls(2), calls(1000));
     for function in ["vkCreateBuffer", "vkAllocateMemory", "vkQueueSubmit2", "vkCreateQueryPool"] {
         let (few, many) = (few[function], many[function]);
-        // How many bands a picture has depends on the time.
+        // The number of bands of a picture depends on the time.
         assert!(many <= few + 8, "{function}: {few} calls for 2 meshes, {many} for 1,000");
     }
-    // The layer does count what goes with their number.
+    // A check that the layer counts calls that depend on their number.
     assert!(many["vkCreateImage"] >= 1000, "{many:?}");
 }
 
-/// A scene with so many of something, which is shown.
+/// A scene with a given number of items, which is shown.
 struct Shown {
     name: &'static str,
     chapter: &'static str,
@@ -56,7 +56,8 @@ struct Shown {
     write: fn(folder: &Path, count: usize),
 }
 
-/// Those of scene files stand in one place, where no box of an acceleration structure tells them apart.
+/// The items of scene files are all in one place, where the boxes of an acceleration structure cannot
+/// separate them.
 const SHOWN: [Shown; 4] = [
     Shown {
         name: "triangles",
@@ -84,7 +85,7 @@ const SHOWN: [Shown; 4] = [
     },
 ];
 
-/// A scene file with this table so many times.
+/// A scene file that repeats this table.
 fn scene(folder: &Path, count: usize, table: &str) {
     let head = "version = 1\n[camera]\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nfield_of_view = 40\n\
                 [[material]]\nname = \"a\"\n";
@@ -92,7 +93,7 @@ fn scene(folder: &Path, count: usize, table: &str) {
 }
 
 impl Shown {
-    /// The seconds and the bytes that so many take, from the program's start to its end.
+    /// The seconds and the bytes needed for this many items, from the program's start to its end.
     fn spent(&self, count: usize) -> (f64, f64) {
         let folder = tempfile::tempdir().unwrap();
         (self.write)(folder.path(), count);

@@ -1,4 +1,4 @@
-//! Pictures and reports: written whole or not at all, and refused before the work.
+//! Pictures and reports: written completely or not at all, and refused before any work.
 
 use std::fs;
 use std::process::Stdio;
@@ -27,7 +27,7 @@ fn files_that_cannot_be_written() {
 fn folders_that_take_no_files_and_devices() {
     refused(&["--out", "/proc/x.png"], 1, &["cannot write '/proc/x.png': no file can be made"]);
     refused(&["--report", "/proc/x.json"], 1, &["no file can be made in '/proc'"]);
-    // Links to devices, so that a mistake costs the link and not the device.
+    // Links to devices, so that a mistake destroys the link and not the device.
     let folder = tempfile::tempdir().unwrap();
     let link = folder.path().join("null.png");
     std::os::unix::fs::symlink("/dev/null", &link).unwrap();
@@ -145,7 +145,7 @@ fn a_run_that_is_asked_to_end_leaves_no_half_written_file() {
             let files = folder.path().read_dir().unwrap();
             files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
         };
-        // It writes after each sample. The second signal does not wait for the end of the writing.
+        // It writes after each sample. The second signal does not wait for the writing to finish.
         let mut command = run::heeding("04_jitter_camera");
         command.args(["--size", "400x400", "--samples", "0..100000", "--save-every", "0"]);
         command.current_dir(&folder).args(["--save", "a.sums"]).stderr(Stdio::null());
@@ -207,7 +207,7 @@ fn a_full_disk_is_said() {
         assert_eq!(code, 1, "{line}");
         assert!(line.contains("cannot write to standard output: No space left"), "{line}");
     }
-    // Nowhere is left to say it; the exit code is.
+    // The message cannot be printed anywhere, but the exit code is right.
     let status = sample().arg("--bogus").stderr(full()).status().unwrap();
     assert_eq!(status.code(), Some(2));
 }

@@ -1,11 +1,12 @@
-//! A program of another crate, by `raybook::run!`: its mistakes are told as those of the book's samples are.
+//! A program of another crate that uses `raybook::run!`: its errors are reported like those of the book's
+//! samples.
 
 use std::fs;
 use std::process::{Command, Output};
 
 use crate::refused_by;
 
-/// A copy of the template's shaders, in which one file is edited.
+/// A copy of the template's shaders with one edited file.
 struct Edited(tempfile::TempDir);
 
 impl Edited {
@@ -33,7 +34,7 @@ fn small(program: &str) -> Command {
     command
 }
 
-/// The one line on standard error of a run that has not failed.
+/// The single line on standard error of a successful run.
 fn warning(output: &Output) -> String {
     let said = String::from_utf8_lossy(&output.stderr).trim_end().to_owned();
     assert!(output.status.success() && said.lines().count() == 1, "{said}");
@@ -45,7 +46,7 @@ const SPHERE: [&str; 3] = ["template", "second_light", "sphere"];
 const RAYGEN: &str = "my_tracer/camera.rgen";
 const STORE: &str = "vec4(color, 1.0)";
 
-/// What an index far beyond an array behind an address leads to: on a GPU, the loss of the device.
+/// An index far beyond an array behind an address. On a GPU, it leads to the loss of the device.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_shader_that_reads_beyond_an_array_ends_in_a_line() {
@@ -75,7 +76,7 @@ fn a_shader_that_reads_beyond_an_array_ends_in_a_line() {
     ];
     refused_by(own.command("my_tracer"), 1, &words);
     refused_by(sample, 1, &words);
-    // Where a backtrace is asked for, the line is the same, and then the system has the crash.
+    // With a backtrace requested the line is the same, and the crash is passed on to the system.
     let traced = own.command("my_tracer").env("RUST_BACKTRACE", "1").output().expect("it starts");
     let said = String::from_utf8_lossy(&traced.stderr);
     assert_eq!(traced.status.signal(), Some(11), "{said}");
@@ -136,7 +137,7 @@ fn a_picture_that_is_written_nowhere_is_a_warning() {
     for program in ["my_tracer", "02_basic"] {
         assert_eq!(warning(&small(program).output().expect("it starts")), line);
     }
-    // A run that is to be validated, or reported on, has its result.
+    // A run with validation or a report still has its result.
     for arguments in [&["--validate"][..], &["--report", "-"]] {
         let output = small("02_basic").args(arguments).output().expect("it starts");
         assert!(output.status.success() && output.stderr.is_empty(), "{arguments:?}");
@@ -145,7 +146,7 @@ fn a_picture_that_is_written_nowhere_is_a_warning() {
 
 #[test]
 fn records_are_listed_with_their_shaders_and_what_asks_for_them() {
-    // Where a sample builds its pipelines for a frame.
+    // A sample that builds its pipelines for a frame.
     let output = run::command("05_shadow_miss").arg("--list-records").output().expect("it starts");
     let told = String::from_utf8_lossy(&output.stdout);
     assert!(
@@ -167,7 +168,7 @@ fn records_are_listed_with_their_shaders_and_what_asks_for_them() {
     );
 }
 
-/// A checkout that was copied with its `target/`: its programs read the files of the other one.
+/// A checkout that was copied with its `target/`: its programs read the files of the original.
 #[test]
 fn a_program_in_a_copy_of_its_folder_says_where_it_was_built() {
     let copy = tempfile::tempdir().expect("a temporary folder");

@@ -1,4 +1,5 @@
-//! Files and folders of others: what may not be replaced is refused before the work, and stays.
+//! Files and folders of other users: those that may not be replaced are refused before any work, and are
+//! preserved.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -7,7 +8,7 @@ use std::path::Path;
 
 use crate::scarce::as_nobody;
 
-/// The refusal of a picture over this file by another user than its owner; `None` where that cannot be tried.
+/// The refusal to overwrite this file, for a user who is not its owner; `None` if that cannot be tested.
 fn refusal_over(file: &Path) -> Option<String> {
     let mut command = crate::sample();
     command.arg("--out").arg(file).env("VULKAN_LOADER", "/nonexistent");
@@ -16,12 +17,12 @@ fn refusal_over(file: &Path) -> Option<String> {
     assert_eq!(code, 1, "{line}");
     assert_eq!(fs::read(file).unwrap(), before, "{line}");
     assert_eq!(file.parent().unwrap().read_dir().unwrap().count(), 1, "{line}");
-    // Nothing was rendered: devices are not even looked for.
+    // Nothing was rendered, and no device was opened.
     assert!(line.contains("cannot write '"), "{line}");
     Some(line)
 }
 
-/// Root's folder with a file, with these permissions.
+/// A folder of root with a file, with these permissions.
 fn owned(folder: u32, file: u32) -> (tempfile::TempDir, std::path::PathBuf) {
     let outer = tempfile::tempdir().unwrap();
     fs::set_permissions(&outer, fs::Permissions::from_mode(0o755)).unwrap();
@@ -36,11 +37,11 @@ fn owned(folder: u32, file: u32) -> (tempfile::TempDir, std::path::PathBuf) {
 
 #[test]
 fn a_file_of_another_stays() {
-    // Whoever may write to the folder could replace it by a rename.
+    // A user with write access to the folder could replace the file by a rename.
     let (_folder, file) = owned(0o777, 0o644);
     let Some(line) = refusal_over(&file) else { return };
     assert!(line.ends_with("permission denied"), "{line}");
-    // A folder with the sticky bit keeps even a file that all may write to.
+    // In a folder with the sticky bit, even a file that everyone may write cannot be replaced.
     let (_folder, file) = owned(0o1777, 0o666);
     let line = refusal_over(&file).unwrap();
     assert!(line.ends_with("it belongs to another, in a folder that keeps it so"), "{line}");

@@ -1,5 +1,5 @@
-//! A machine that has too little: address space, threads, room for a file. A run ends in a picture or in one
-//! line, and leaves a file as it was or writes it whole.
+//! A machine that lacks address space, threads, or room for a file. A run ends with a picture or with one
+//! line, and leaves a file unchanged or writes it completely.
 #![cfg(target_os = "linux")]
 
 use std::ffi::OsString;
@@ -12,23 +12,24 @@ use instruments::sums::{Header, Origin, Sums};
 use run::cards::{Card, said};
 use time_limit::ASLEEP;
 
-/// A program under a limit of the system's, in the words of `prlimit`.
+/// A program under a resource limit, in the form used by `prlimit`.
 fn limited(limit: &str, program: &str) -> Command {
     let mut command = Command::new("prlimit");
     command.arg(limit).arg(run::program(program)).current_dir(run::root());
-    // A developer's own setting leaves crashes to the system.
+    // A developer's own setting would leave crashes to the system.
     command.env_remove("RUST_BACKTRACE");
     command
 }
 
-/// Exit code 0 and nothing said, or 1 and one line of the program's own; whether it was the first.
+/// Checks for exit code 0 without output, or 1 with one line of the program's own; returns whether it was the
+/// first.
 ///
-/// Rust, the driver and its compiler may write lines of their own above that line before they give up; a GPU's
-/// driver may whenever it fails.
+/// Rust, the driver and its compiler may print lines of their own before that line; a GPU's driver may do so
+/// at any failure.
 #[track_caller]
 fn done_or_said(what: &str, output: Output) -> bool {
     let errors = String::from_utf8_lossy(&output.stderr);
-    // Where memory is short, a driver may crash; this program's own code may not panic.
+    // When memory is short a driver may crash, but this program's own code may not panic.
     assert!(!errors.contains("mistake of the program"), "{what}: {errors}");
     let own = errors.lines().filter(|line| line.starts_with("error: ")).count();
     match output.status.code() {
@@ -44,7 +45,8 @@ fn done_or_said(what: &str, output: Output) -> bool {
     output.status.success()
 }
 
-/// Runs a sample in so many megabytes of address space, or without a limit; whether there is a picture.
+/// Runs a sample in this many megabytes of address space, or without a limit; returns whether there is a
+/// picture.
 fn in_megabytes(sample: &str, megabytes: impl Into<Option<u64>>) -> bool {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("a.png");
@@ -60,7 +62,7 @@ fn in_megabytes(sample: &str, megabytes: impl Into<Option<u64>>) -> bool {
 
 #[test]
 fn with_any_address_space_there_is_a_picture_or_one_line() {
-    // The software driver renders in 4000; a GPU's may reserve more than the card's whole memory.
+    // The software driver renders in 4000; a GPU's driver may reserve more than the card's whole memory.
     let enough = run::device::is_software().then_some(4000);
     let sizes = (200..=1000).step_by(50).map(Some).chain([enough]);
     let done: Vec<bool> = sizes.map(|size| in_megabytes("02_basic", size)).collect();
@@ -83,7 +85,7 @@ fn with_any_number_of_open_files_there_is_a_picture_or_one_line() {
     let render = ["--headless", "--size", "8x8", "--out", picture.to_str().unwrap()];
     let programs = [("01_foundation", &render[..]), ("02_basic", &render), ("chapters", &["list"])];
     for (program, arguments) in programs {
-        // With three, its input, output and errors, the system does not load it.
+        // With only three, for its standard streams, the system cannot load it.
         for files in [4, 5, 6, 12, 63, 64] {
             let limit = format!("--nofile={files}");
             let output = limited(&limit, program).args(arguments).output().unwrap();
@@ -97,10 +99,11 @@ fn with_any_number_of_open_files_there_is_a_picture_or_one_line() {
     }
 }
 
-/// A user without files and processes.
+/// A user who owns no files or processes.
 const NOBODY: &str = "61234";
 
-/// A command as another user than root, whom limits do not bind; `None`, and a line, where that cannot be.
+/// Runs a command as a user other than root, whom limits do not bind; `None`, with a message, if that is
+/// impossible.
 pub fn as_nobody(command: &Command) -> Option<Command> {
     let nobody = ["--reuid", NOBODY, "--regid", NOBODY, "--clear-groups"];
     let mut reads = Command::new("setpriv");
@@ -112,7 +115,7 @@ pub fn as_nobody(command: &Command) -> Option<Command> {
     }
     let mut other = Command::new("setpriv");
     other.args(nobody).arg(command.get_program()).args(command.get_args());
-    // The driver would tell that it has no home for its cache.
+    // The driver would complain that it has no home for its cache.
     other.current_dir(run::root()).env("MESA_SHADER_CACHE_DISABLE", "1");
     other.env_remove("RUST_BACKTRACE");
     Some(other)
@@ -126,7 +129,7 @@ fn with_any_number_of_threads_there_is_a_picture_or_one_line() {
     }
 }
 
-/// The software driver has threads of its own, without which there is no picture; a GPU's need not have any.
+/// The software driver needs threads of its own to make a picture; a GPU's driver may not.
 #[test]
 fn a_gpu_s_driver_may_render_with_any_number_of_threads() {
     let Some(card) = Card("navi31").environment() else { return };
@@ -144,7 +147,7 @@ fn with_any_number_of_threads(
         let mut command = limited(&format!("--nproc={threads}"), sample);
         command.args(["--headless", "--size", "8x8"]);
         let Some(command) = as_nobody(&command) else { return };
-        // What waits forever is a failure.
+        // A run that never ends is a failure.
         let seconds = ASLEEP.as_secs().to_string();
         let mut patient = Command::new("timeout");
         patient.args(["-s", "KILL", &seconds]).arg(command.get_program()).args(command.get_args());
@@ -153,7 +156,7 @@ fn with_any_number_of_threads(
         }
         patient.envs(device.iter().cloned()).env_remove("RUST_BACKTRACE");
         let mut output = patient.current_dir(run::root()).output().unwrap();
-        // A card that is not there is told of in lines of its own.
+        // The driver stub prints lines of its own about the missing card.
         output.stderr = said(&output).into_bytes();
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
         done.push(done_or_said(&format!("{sample}, {threads} threads"), output));
@@ -164,9 +167,9 @@ fn with_any_number_of_threads(
     assert!(!(done[0] && needs_threads) && done[done.len() - 1], "{done:?}");
 }
 
-/// Merges to a file where files may have any number of bytes, from none to enough, in these steps: `merge` writes
-/// by the same code as a render, and needs no driver, which has files of its own.
-/// The file holds `before` then, or is not there.
+/// Merges to a file with every limit on file size from none to enough, in these steps. `merge` writes with
+/// the same code as a render, and needs no driver, which would write files of its own. Before that the file
+/// contains `before`, or does not exist.
 fn at_every_byte(
     name: &str,
     step: usize,
@@ -200,7 +203,7 @@ fn at_every_byte(
     println!("{name}: {} bytes", whole.len());
 }
 
-/// A file of sums of so many samples of a small picture.
+/// A file of sums with these samples of a small picture.
 fn sums(file: &Path, samples: Range<u32>) {
     let origin = Origin { size: [3, 2], shaders: Some(0), ..Origin::default() };
     let header = Header { origin, samples: samples.into(), ..Header::default() };
@@ -227,13 +230,13 @@ fn on_a_disk_that_is_full_after_any_byte_a_merged_file_is_whole_or_as_it_was() {
     at_every_byte("a.sums", 5, Some(&fs::read(other).unwrap()), into_one);
 }
 
-/// Renders to a disk that has room for so many pages of 4096 bytes, beside a file `a.exr` that was there; whether
-/// that is another now, after a run that said nothing. `None`, and a line, where no disk can be mounted.
+/// Renders to a disk with room for this many pages of 4096 bytes, which has a file `a.exr`; returns whether a
+/// successful run has replaced it. `None`, with a message, if no disk can be mounted.
 fn on_disk(pages: usize, whole: &[u8]) -> Option<bool> {
     let folder = tempfile::tempdir().unwrap();
     let [disk, after, list] = ["disk", "after.exr", "list"].map(|name| folder.path().join(name));
     fs::create_dir(&disk).unwrap();
-    // What is mounted is seen by this shell alone.
+    // Only this shell sees the mount.
     let script = "mount -t tmpfs -o size=64k none \"$1\" || exit 77
         cd \"$1\" && printf precious > a.exr && head -c \"$2\" /dev/zero > fill
         \"$3\" --headless --size 32x32 --out a.exr; code=$?

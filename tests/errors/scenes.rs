@@ -1,10 +1,10 @@
-//! `--scene` of chapter 25: whatever is wrong with a scene file is refused with file and line.
+//! `--scene` of chapter 25: every fault in a scene file is refused with file and line.
 
 use std::fs;
 
 use crate::refused_by;
 
-/// A scene that is right, up to the line that a case adds.
+/// A valid scene, up to the line that a case adds.
 const HEAD: &str =
     "version = 1\n[camera]\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nfield_of_view = 40\n";
 const PAINT: &str = "[[material]]\nname = \"a\"\n";
@@ -27,7 +27,7 @@ fn file_refused(text: &str, words: &str) {
     refused_by(command, 1, &[words]);
 }
 
-/// As [`file_refused`], of [`HEAD`] with a table after it.
+/// As [`file_refused`], for [`HEAD`] followed by a table.
 #[track_caller]
 fn table_refused(table: &str, words: &str) {
     file_refused(&format!("{HEAD}{table}"), words);
@@ -134,7 +134,7 @@ fn lines_that_are_no_toml_say_what_to_write() {
     for (text, words) in [
         (model("sub\\car.obj"), format!("s.toml:2: {slash}; write `/` between folders")),
         (model("C:\\Users\\car.obj"), format!("s.toml:2: {slash}; write `/` between folders")),
-        // Each of these is an escape, of a tab and of a line's end.
+        // Each of these is an escape, for a tab and for a line break.
         (model("sub\\table\\new.obj"), format!("{slash}: write `/` between folders")),
         (
             HEAD.to_owned() + &ball("1,5"),
@@ -516,7 +516,7 @@ fn as_many_names_as_may_be_are_found_at_once() {
     let (_, line) = run::refusal(spent.output);
     let words = "s.toml:600005: no material \"none\"; there is 0, 1, 2, 3";
     assert!(line.contains(words), "{line}");
-    // Each name looked for among all takes minutes.
+    // Searching for each name among all would take minutes.
     assert!(spent.time.as_secs() < 60, "{:?}", spent.time);
 }
 

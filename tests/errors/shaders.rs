@@ -1,4 +1,4 @@
-//! `SHADERS` names a folder with a fault: the line says where.
+//! A faulty shader in the folder named by `SHADERS`: the message says where the fault is.
 
 use std::fs;
 use std::path::Path;
@@ -141,7 +141,7 @@ fn what_takes_more_memory_than_a_device_has_is_refused() {
 #[cfg(unix)]
 #[test]
 fn a_compiler_that_crashes_takes_its_own_process_alone() {
-    // It goes down into a sum term by term, and has a stack of a few megabytes.
+    // The compiler recurses into a sum term by term, with a stack of a few megabytes.
     let terms = " + x * y".repeat(100_000);
     let sum = format!("float much(float x) {{ float y = 0.0; y += x{terms}; return y; }}");
     let folder = folder("02_basic/sky.rmiss", appended(&sum));
@@ -153,7 +153,7 @@ fn a_compiler_that_crashes_takes_its_own_process_alone() {
     }
 }
 
-/// It stays at work for half a minute otherwise.
+/// Otherwise it would keep working for half a minute.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_compiler_ends_with_the_program_that_asks_it() {
@@ -172,7 +172,7 @@ fn a_compiler_ends_with_the_program_that_asks_it() {
     let compiler = |text: String| text.split_whitespace().next().map(str::to_owned);
     let child = loop {
         assert!(start.elapsed() < ASLEEP, "no compiler was started");
-        // The compiler of the first shaders is done at once.
+        // The first shaders compile at once.
         std::thread::sleep(Duration::from_millis(20));
         let Some(child) = compiler(fs::read_to_string(&children).unwrap_or_default()) else {
             continue;
@@ -187,11 +187,11 @@ fn a_compiler_ends_with_the_program_that_asks_it() {
     parent.wait().unwrap();
     let stat = Path::new("/proc").join(child).join("stat");
     let is_alive = || {
-        // An orphan that has ended may not be waited for yet.
+        // An orphan that has ended may not have been reaped yet.
         let stat = fs::read_to_string(&stat).unwrap_or_default();
         stat.rsplit(')').next().is_some_and(|rest| !rest.is_empty() && !rest.starts_with(" Z"))
     };
-    // At work it has a processor now and then; where the machine is busy, its end comes when it would.
+    // Measured in processor time, because its end may take long on a busy machine.
     let done = || work.done().unwrap_or_default();
     let before = done();
     while is_alive() {
@@ -275,7 +275,7 @@ fn structures_that_differ_name_the_field() {
 
 #[test]
 fn what_lies_at_an_address_is_declared_in_rust() {
-    // The structure goes by another name, as one that only the shader has.
+    // The structure is renamed, so that only the shader has one of that name.
     let (from, to) =
         ("struct MaterialRecord", "#define MaterialRecord Substance\nstruct MaterialRecord");
     let folder = folder("common/scene.glsl", |text| text.replacen(from, to, 1));
@@ -306,7 +306,8 @@ fn constants_that_differ_name_both_sides() {
     shaders_refused(folder.path(), &[words]);
 }
 
-/// The traps of a framework that cuts a picture into bands, and of payloads: each was silent, and black or striped.
+/// Mistakes about bands of a picture, and about payloads: each used to be silent, with a black or striped
+/// picture.
 #[test]
 fn a_launch_is_a_band_and_no_picture() {
     let raygen = "02_basic/camera.rgen";
@@ -331,7 +332,7 @@ fn a_launch_is_a_band_and_no_picture() {
 
 #[test]
 fn a_payload_is_of_the_type_that_is_passed() {
-    // The closest hit shader's, and the miss shader's.
+    // The payloads of the closest hit shader and of the miss shader.
     let hit = folder("02_basic/shade.rchit", |text| {
         text.replace("rayPayloadInEXT vec4 payload;", "rayPayloadInEXT vec3 passed;\nvec4 payload;")
             .replace("payload = vec4(color, 1.0);", "payload = vec4(color, 1.0);\npassed = color;")
@@ -349,7 +350,7 @@ fn a_payload_is_of_the_type_that_is_passed() {
     shaders_refused(miss.path(), &[&format!("02_basic/camera.rgen: {words}")]);
 }
 
-/// The shadow ray of 05 that asks the sky: it was silent, and all was dark.
+/// A shadow ray of 05 that names the sky's miss shader: it used to be silent, and everything was dark.
 #[test]
 fn a_ray_that_names_the_miss_shader_of_another_payload_is_refused() {
     let (from, to) = ("1,                          // missIndex", "0, // missIndex");
@@ -392,7 +393,7 @@ fn what_is_seldom_meant_is_a_warning() {
     }
 }
 
-/// Silent without the check: what is hit is shaded by another group, or by what lies behind the table.
+/// Silent without the check: a hit is shaded by another group, or by whatever follows the table.
 #[test]
 fn a_ray_adds_to_a_hit_record_what_the_table_has() {
     let file = "02_basic/camera.rgen";
@@ -402,7 +403,7 @@ fn a_ray_adds_to_a_hit_record_what_the_table_has() {
     shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
 }
 
-/// Silent without the check: a sphere is shaded by what is beside its normal, a triangle by no weights.
+/// Silent without the check: a sphere is shaded with wrong normals, a triangle without barycentrics.
 #[test]
 fn a_hit_attribute_is_of_the_type_that_is_written() {
     for (program, shader, from, to, line) in [
@@ -439,7 +440,7 @@ fn a_name_of_a_file_that_is_not_included_names_the_file() {
     refused_by(command, 1, &[words]);
 }
 
-/// Each was a crash or a wrong picture in silence.
+/// Each used to be a crash or a silently wrong picture.
 #[test]
 fn what_a_pipeline_does_not_go_with_is_refused() {
     let head = "hitAttributeEXT vec3 outward;";

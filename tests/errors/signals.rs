@@ -1,5 +1,5 @@
-//! Signals at any moment of a run, from its start to its last byte: it ends by the signal or in one line, and
-//! nothing half-written is left.
+//! Signals at any moment of a run, from its start to its last byte: it ends by the signal or with one line,
+//! and leaves nothing half-written.
 #![cfg(unix)]
 
 use std::fs;
@@ -14,12 +14,12 @@ use reference::random::Random;
 
 const SIGNALS: [(&str, i32); 3] = [("INT", 2), ("TERM", 15), ("HUP", 1)];
 
-/// Number of signals for each kind of run: as many as the variable says.
+/// The number of signals for each kind of run: `usual`, or as set in the environment.
 fn rounds(usual: u32) -> u32 {
     std::env::var("ROUNDS").map_or(usual, |text| text.parse().expect("ROUNDS is a number"))
 }
 
-/// Tests whether a file is one that a run writes, and whole.
+/// Returns whether a file is one that a run writes, and complete.
 fn is_whole(file: &Path) -> bool {
     match file.extension().and_then(|extension| extension.to_str()) {
         Some("png") => image::open(file).is_ok(),
@@ -31,14 +31,14 @@ fn is_whole(file: &Path) -> bool {
     }
 }
 
-/// Tests whether a file in a folder is being written.
+/// Returns whether a file in a folder is being written.
 fn writes(folder: &Path) -> bool {
     let mut files = fs::read_dir(folder).expect("a folder").map(|file| file.unwrap().file_name());
     files.any(|name| name.to_string_lossy().starts_with(".tmp"))
 }
 
-/// Sends signals to runs of a command, each in a folder of its own, at moments drawn from all of a run; every
-/// other one waits from then on until a file is being written.
+/// Sends signals to runs of a command, each in its own folder, at random moments of a run; every other signal
+/// then waits until a file is being written.
 fn at_any_moment(usual: u32, command: impl Fn(&Path, u32) -> Command) {
     let mut random = Random(1);
     let (mut longest, mut counts) = (Duration::ZERO, [0; 3]);
@@ -50,9 +50,9 @@ fn at_any_moment(usual: u32, command: impl Fn(&Path, u32) -> Command) {
         let start = Instant::now();
         let mut child = command.spawn().expect("it starts");
         let (name, number) = SIGNALS[random.below(3)];
-        // The first run tells how long one takes.
+        // The first run measures the duration.
         if round > 0 {
-            // To start a program takes longer than to write a file: this one is there already.
+            // Starting a program takes longer than writing a file, so this one is started in advance.
             let send = "read moment; kill -s \"$0\" \"$1\" 2>/dev/null";
             let mut sender = Command::new("sh");
             sender.args(["-c", send, name, &child.id().to_string()]).stdin(Stdio::piped());
@@ -86,7 +86,7 @@ fn at_any_moment(usual: u32, command: impl Fn(&Path, u32) -> Command) {
     println!("{longest:?} a run; {done} done, {said} stopped in a line, {killed} by the signal");
 }
 
-/// The shaders of 02 with a text that no cache knows.
+/// The shaders of 02 with new text, so that no cache has them.
 fn unknown_shaders(folder: &Path, round: u32) {
     run::copy(&run::root().join("shaders/common"), &folder.join("common"));
     run::copy(&run::root().join("shaders/02_basic"), &folder.join("02_basic"));
@@ -143,7 +143,7 @@ fn a_crash_ends_in_one_line_unless_a_backtrace_is_asked_for() {
         let mut command = crate::sample();
         command.args(["--frames", "4000000000"]).env("RUST_BACKTRACE", traced);
         let mut child = command.stderr(Stdio::piped()).spawn().expect("it starts");
-        // By then it renders.
+        // By then it is rendering.
         time_limit::wait_until_worked(&mut child, Duration::from_secs(1));
         let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
         assert!(sent.expect("kill").success());

@@ -1,5 +1,5 @@
-//! The silhouettes of models from elsewhere, compared with a rasteriser that shares no code with the samples: its own
-//! reading of OBJ files, camera and filling of polygons, all in 64 bits.
+//! Compares the silhouettes of foreign models with a rasteriser that shares no code with the samples: it has
+//! its own OBJ reader, camera and polygon filling, all in 64 bits.
 
 use std::fs;
 use std::path::Path;
@@ -10,11 +10,12 @@ use common::app::Picture;
 use crate::testmodels::{FOLDER, objects};
 
 const SIZE: [usize; 2] = [240, 150];
-/// Degrees, vertically.
+/// The vertical field of view, in degrees.
 const FIELD: f64 = 40.0;
-/// Within this part of a pixel from an edge, rounding decides what is covered.
+/// Within this part of a pixel from an edge, rounding decides whether the pixel is covered.
 const EDGE: f64 = 0.02;
-/// The part of its length by which a polygon may be bent: what covers a pixel then depends on how it is cut.
+/// The part of its length by which a polygon may be bent; beyond that, coverage depends on how it is
+/// triangulated.
 const BENT: f64 = 1e-6;
 
 type Point = [f64; 3];
@@ -39,7 +40,7 @@ fn unit(a: Point) -> Point {
     scaled(a, 1.0 / dot(a, a).sqrt())
 }
 
-/// The polygons of a file; faces with a corner that is not there, or no number, are left out.
+/// The polygons of a file; faces with a missing corner or a coordinate that is not a number are left out.
 fn polygons(bytes: &[u8]) -> Vec<Vec<Point>> {
     let text = String::from_utf8_lossy(bytes).replace("\\\r\n", " ").replace("\\\n", " ");
     let (mut points, mut found): (Vec<Option<Point>>, _) = (Vec::new(), Vec::new());
@@ -69,7 +70,7 @@ fn polygons(bytes: &[u8]) -> Vec<Vec<Point>> {
     found
 }
 
-/// The camera: where it is, what it looks at, and its axes.
+/// The camera: its position, its target and its axes.
 struct View {
     eye: Point,
     target: Point,
@@ -79,7 +80,7 @@ struct View {
 }
 
 impl View {
-    /// From outside of all polygons.
+    /// A view from outside of all polygons.
     fn of(polygons: &[Vec<Point>]) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for point in polygons.iter().flatten() {
@@ -109,7 +110,7 @@ impl View {
     }
 }
 
-/// How often an outline turns around a point: 0 outside of it.
+/// The winding number of an outline around a point: 0 outside.
 fn winding(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> i32 {
     let mut turns = 0;
     for (at, a) in outline.iter().enumerate() {
@@ -128,7 +129,7 @@ fn winding(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> i32 {
     turns
 }
 
-/// True if the corners do not lie in one plane.
+/// True if the corners are not in one plane.
 fn is_bent(corners: &[Point]) -> bool {
     let normals =
         corners.windows(2).map(|two| cross(sub(two[0], corners[0]), sub(two[1], corners[0])));
@@ -139,7 +140,7 @@ fn is_bent(corners: &[Point]) -> bool {
     corners.len() > 3 && corners.iter().any(far)
 }
 
-/// What is known of a pixel.
+/// The coverage of a pixel.
 #[derive(Clone, Copy, PartialEq)]
 enum Pixel {
     Free,
@@ -147,7 +148,7 @@ enum Pixel {
     Covered,
 }
 
-/// The pixels that polygons cover.
+/// The pixels covered by polygons.
 fn covered(polygons: &[Vec<Point>], view: &View) -> Vec<Pixel> {
     let [width, height] = SIZE;
     let mut pixels = vec![Pixel::Free; width * height];
@@ -193,7 +194,7 @@ fn covered(polygons: &[Vec<Point>], view: &View) -> Vec<Pixel> {
     pixels
 }
 
-/// A picture of hits, from where the model was moved to.
+/// Renders a picture of hits; `moved` is the model's translation.
 fn rendered(file: &Path, view: &View, moved: Point, out: &Path) -> Output {
     let point = |name: &str, at: Point| {
         let [x, y, z] = sub(at, scaled(moved, -1.0));
@@ -210,14 +211,14 @@ fn rendered(file: &Path, view: &View, moved: Point, out: &Path) -> Output {
     command.arg("--out").arg(out).output().expect("the sample starts")
 }
 
-/// By how much a warning says that a model was moved.
+/// The translation of a model, from its warning.
 fn moved(said: &str) -> Option<Point> {
     let (_, rest) = said.split_once("it was moved by (")?;
     let numbers = rest.split(')').next()?.split(", ").map(|word| word.parse().expect("a number"));
     numbers.collect::<Vec<f64>>().try_into().ok()
 }
 
-/// The numbers of pixels that are covered, uncertain and wrong, and the warnings; nothing for a model that is refused.
+/// The numbers of covered, uncertain and wrong pixels, and the warnings; `None` for a refused model.
 fn compared(file: &Path) -> Option<([usize; 3], String)> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
@@ -287,11 +288,11 @@ fn polygons_of_every_kind_have_the_silhouette_of_their_outline() {
     let file = folder.path().join("m.obj");
     for (model, warnings) in [
         (format!("{frame}f 1 2 3 4\n"), 0),
-        // A hole behind a bridge, a notch, both ways around.
+        // A hole with a bridge, a notch, both orientations.
         (format!("{frame}f 1 2 3 4 1 5 6 7 8 5\n"), 0),
         (format!("{frame}f 1 2 8 5 6 4\nf 4 6 7 3\n"), 0),
         (format!("{frame}f -1 -2 -6 -7\nf 6 5 1\n"), 0),
-        // Faces that are left out; positions far away.
+        // Faces that are left out; distant positions.
         (format!("{frame}v nan 0 0\nf 1 2 9\nf 1 2 3\n"), 1),
         (format!("{frame}f 1 2 12\nf 1 2\nf 3 4 1\n"), 1),
         (frame.replace("v ", "v 40000") + "f 1 2 3 4 1 5 6 7 8 5\n", 1),
@@ -301,7 +302,7 @@ fn polygons_of_every_kind_have_the_silhouette_of_their_outline() {
         assert!(covered > 1000 && wrong == 0, "{covered}, {wrong}: {model}{said}");
         assert_eq!(said.lines().count(), warnings, "{said}");
     }
-    // It sees what is wrong: a notch that is filled.
+    // The comparison detects a filled notch.
     let view = View::of(&polygons(format!("{frame}f 1 2 3 4\n").as_bytes()));
     let count = |faces: &str| {
         let pixels = covered(&polygons(format!("{frame}{faces}").as_bytes()), &view);

@@ -1,5 +1,5 @@
-//! The OBJ files that Debian packages of another reader's tests (assimp-testmodels): each is shown as a small reader
-//! of our own reads it, or refused in one line.
+//! The OBJ files of Debian's assimp-testmodels, written to test another reader: each is shown as a small
+//! reader of our own reads it, or refused in one line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use common::model::obj;
 
 use crate::sample;
 
-/// The place of the package.
+/// The folder of the package.
 pub const FOLDER: &str = "/usr/share/assimp/models";
 
 /// Files that cannot be shown, and the reason.
@@ -20,7 +20,7 @@ const REFUSED: [(&str, &str); 5] = [
     ("testpoints.obj", ": has no faces"),
 ];
 
-/// Files of that folder and those below.
+/// The files of that folder and its subfolders.
 pub fn objects(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).expect("the folder can be read").flatten() {
@@ -35,8 +35,8 @@ pub fn objects(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The number of triangles of a file, and the lowest and highest corner of the box around those of its faces. Faces of
-/// too few corners, or with a corner that is not there or has no position, do not count.
+/// The number of triangles of a file, and the bounding box of its faces. Faces with too few corners, or with
+/// a corner that is missing or has no position, do not count.
 fn read(text: &str) -> (usize, [f32; 3], [f32; 3]) {
     let mut positions: Vec<[f32; 3]> = Vec::new();
     let (mut count, mut low, mut high) = (0, [f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);

@@ -1,4 +1,5 @@
-//! Difference of two pictures to the eye: FLIP (Andersson et al., HPG 2020), as tests and `cargo chapters` use it.
+//! The perceived difference of two pictures: FLIP (Andersson et al., HPG 2020), as used by tests and `cargo
+//! chapters`.
 
 pub mod near;
 
@@ -6,8 +7,8 @@ pub mod near;
 /// which made the goldens.
 pub const TOLERANCE: f32 = 0.002;
 
-/// The mean FLIP error of two pictures of one size, 8 bits sRGB a channel, row by row: 0 for the same, 1 for
-/// black and white.
+/// The mean FLIP error of two pictures of the same size, 8 bits of sRGB per channel, row by row: 0 if equal,
+/// 1 for black and white.
 pub fn mean(size: (u32, u32), expected: &[u8], actual: &[u8]) -> f32 {
     nv_flip::FlipPool::from_image(&errors(size, expected, actual)).mean()
 }

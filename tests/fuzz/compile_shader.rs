@@ -1,5 +1,5 @@
-//! Compiles the shader that is named, below the folder that `SHADERS` names, as the driver computes and as
-//! badly as Vulkan allows: 1 and a line if that fails.
+//! Compiles the named shader, below the folder in `SHADERS`, for the driver's arithmetic and for the worst
+//! that Vulkan allows; exits with 1 and a message if that fails.
 
 use std::process::ExitCode;
 

@@ -12,17 +12,17 @@ use time_limit::Limit;
 pub enum Fault {
     /// A panic, with its message.
     Panic(String),
-    /// No answer within so long.
+    /// No answer within this limit.
     Endless(Limit),
-    /// An answer that took so long of a processor.
+    /// An answer that took this much processor time.
     Slow(Duration),
-    /// More than so many bytes of memory.
+    /// More than this many bytes of memory.
     Memory(u64),
-    /// A line that is none: several, empty, or without the file that it is about.
+    /// An invalid message: several lines, empty, or without the name of the file.
     Line(String),
-    /// An end that is neither 0, 1 nor 2.
+    /// An exit code other than 0, 1 and 2.
     Exit(String),
-    /// Files that were left behind, or are gone.
+    /// Files that were left behind or removed.
     Left(Vec<String>),
 }
 
@@ -55,14 +55,14 @@ impl Display for Fault {
     }
 }
 
-/// A fault, and the input that brought it about.
+/// A fault, and the input that caused it.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The reader of the inputs.
     pub reader: &'static str,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Number of inputs tried before.
+    /// The number of inputs tried before.
     pub number: usize,
     /// The bytes.
     pub input: Vec<u8>,
@@ -71,7 +71,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// Writes the input below `target/fuzz` and says how to try it again.
+    /// Writes the input below `target/fuzz` and prints how to try it again.
     pub fn keep(&self) -> String {
         let Self { reader, seed, number, input, fault } = self;
         let file = PathBuf::from(format!("target/fuzz/{reader}-{}-{seed}-{number}", fault.kind()));

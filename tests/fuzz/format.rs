@@ -1,4 +1,4 @@
-//! Formats to read: the source of their inputs, and their reader.
+//! Input formats: their generators and their readers.
 
 use std::path::Path;
 
@@ -8,17 +8,17 @@ use reference::random::Random;
 use crate::fault::Fault;
 use crate::grammar::Grammar;
 
-/// A reader's message about an input that it refuses, or its summary of one that it accepts, in a few words.
+/// A reader's message about a refused input, or its short summary of an accepted one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// Taken.
+    /// The input was accepted.
     Taken(String),
-    /// Refused, by this line.
+    /// The input was refused with this message.
     Refused(String),
 }
 
 impl Answer {
-    /// The answer without numbers and without what it quotes: the same for inputs that differ only in these.
+    /// The answer without numbers and quotations, so that it is equal for inputs that differ only in these.
     pub fn gist(&self) -> String {
         let (mark, text) = match self {
             Self::Taken(text) => ('+', text),
@@ -39,12 +39,12 @@ impl Answer {
     }
 }
 
-/// A reader of inputs: a function of this process, or a program.
+/// A reader of inputs: a function in this process, or a program.
 pub trait Reader {
-    /// Shows it an input.
+    /// Reads an input.
     ///
     /// # Errors
-    /// With what the input brought about, if that is not allowed.
+    /// The fault the input caused.
     fn ask(&mut self, input: &[u8]) -> Result<Answer, Fault>;
 }
 
@@ -53,27 +53,27 @@ pub trait Reader {
 pub struct Format {
     /// Its name, in a word.
     pub name: &'static str,
-    /// The file that an input is written to, below a folder of the test's own.
+    /// The name of the file for an input, in a folder of the test's own.
     pub file: &'static str,
-    /// Bytes of an input, at most.
+    /// The largest number of bytes of an input.
     pub most: usize,
-    /// A new input.
+    /// Generates a new input.
     pub make: fn(&mut Random) -> Vec<u8>,
-    /// The words in inputs of this kind, for mutations: those of its grammar.
+    /// The grammar whose words mutations insert, if there is one.
     pub grammar: Option<fn() -> &'static Grammar>,
-    /// Inputs that are right, or were wrong once.
+    /// Valid inputs, and inputs that once caused a fault.
     pub seeds: fn() -> Vec<Vec<u8>>,
-    /// Puts checksums right that a mutation has broken.
+    /// Repairs the checksums that a mutation has broken.
     pub seal: Option<fn(&mut [u8])>,
 }
 
-/// A function that reads, and what it may take.
+/// A function that reads, and its limits.
 #[derive(Clone, Copy)]
 pub struct Function {
-    /// Writes the files that an input names.
+    /// Writes the files that an input refers to.
     pub beside: fn(&Path),
-    /// Reads the file; what it returns says what the input held. What it makes must be whole: it panics if not.
+    /// Reads the file, and summarises its contents. Panics if the result is inconsistent.
     pub read: fn(&Path) -> Result<String>,
-    /// Bytes of memory, at most.
+    /// The largest number of bytes of memory.
     pub memory: usize,
 }

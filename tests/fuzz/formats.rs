@@ -1,4 +1,4 @@
-//! Formats to read, one file each.
+//! Input formats, one per file.
 
 pub mod cases;
 pub mod game;
@@ -16,7 +16,7 @@ use std::path::Path;
 
 use crate::format::{Format, Function};
 
-/// Readers in this process, each with the number of inputs that `cargo test` tries: a few seconds' worth.
+/// Readers in this process, each with the number of inputs tried by `cargo test`, which take a few seconds.
 pub const FUNCTIONS: [(Format, Function, usize); 9] = [
     (object::FORMAT, object::FUNCTION, 8000),
     (object::MATERIAL_FORMAT, object::MATERIAL_FUNCTION, 8000),
@@ -29,7 +29,7 @@ pub const FUNCTIONS: [(Format, Function, usize); 9] = [
     (gltf::FORMAT, gltf::FUNCTION, 3000),
 ];
 
-/// The files of a folder of the corpus, in the order of their names.
+/// The files of a folder of the corpus, sorted by name.
 fn corpus(name: &str) -> Vec<Vec<u8>> {
     let folder = run::root().join("tests/fuzz/corpus").join(name);
     let entries = folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
@@ -43,5 +43,5 @@ fn ours(path: &str) -> Vec<u8> {
     fs::read(run::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// No files beside.
+/// Writes no additional files.
 pub fn nothing(_: &Path) {}

@@ -1,4 +1,4 @@
-//! Texts by a grammar: rules as text, a line for each way a rule can go.
+//! Generates texts by a grammar: rules in text form, one line for each alternative.
 //!
 //! ```text
 //! file: <line*>
@@ -7,14 +7,15 @@
 //! corner: <whole>/<whole>
 //! ```
 //!
-//! The first rule is where a text begins. `<rule>` is one, `<rule*>` none to many; `\n` ends a line of the text.
-//! `<number>`, `<whole>` and `<word>` are made here: mostly plain ones, and some that nobody would write.
+//! A text begins with the first rule. `<rule>` is one instance, `<rule*>` none to many; `\n` ends a line of
+//! the text. `<number>`, `<whole>` and `<word>` are built in: mostly plain ones, and some that nobody would
+//! write.
 
 use std::collections::BTreeMap;
 
 use reference::random::Random;
 
-/// Rules, each with the ways it can go.
+/// Rules, each with its alternatives.
 pub struct Grammar {
     first: String,
     rules: BTreeMap<String, Vec<Vec<Term>>>,
@@ -26,10 +27,10 @@ enum Term {
     Many(String),
 }
 
-/// Maximum nesting of rules; below, each takes its first way, and `*` is none.
+/// Maximum nesting of rules; below it, each takes its first alternative, and `*` is empty.
 const DEEP: usize = 24;
 
-/// Numbers that are hard to read, or to bear.
+/// Numbers that are hard to parse or to process.
 pub const ODD_NUMBERS: &[&str] = &[
     "0",
     "-0",
@@ -91,7 +92,7 @@ pub const ODD_NUMBERS: &[&str] = &[
     "16777217",
 ];
 
-/// Words that are hard to show, or lead elsewhere.
+/// Words that are hard to print, or that are paths to other places.
 pub const ODD_WORDS: &[&str] = &[
     "",
     " ",
@@ -140,10 +141,10 @@ pub const ODD_WORDS: &[&str] = &[
 ];
 
 impl Grammar {
-    /// Reads rules.
+    /// Parses rules.
     ///
     /// # Panics
-    /// If a line is no rule, or names one that there is not: the rules are ours.
+    /// If a line is not a rule, or refers to a missing one: the rules are ours.
     pub fn new(text: &str) -> Self {
         let mut rules = BTreeMap::<String, Vec<Vec<Term>>>::new();
         let mut first = None;
@@ -162,14 +163,14 @@ impl Grammar {
         grammar
     }
 
-    /// A text of at most so many bytes, or a little more.
+    /// A text of about this many bytes at most.
     pub fn text(&self, random: &mut Random, most: usize) -> String {
         let mut text = String::new();
         self.expand(&self.first, random, &mut text, most, 0);
         text
     }
 
-    /// The words that stand in texts of this grammar.
+    /// The words that occur in the grammar's texts.
     pub fn words(&self) -> impl Iterator<Item = &str> {
         self.rules.values().flatten().flatten().filter_map(|term| match term {
             Term::Text(text) => Some(text.as_str()),
@@ -220,7 +221,7 @@ fn terms(way: &str) -> Vec<Term> {
     terms
 }
 
-/// Few, mostly; at times many.
+/// A count: usually small, sometimes large.
 fn many(random: &mut Random) -> usize {
     match random.below(12) {
         0 => random.below(200),
@@ -243,7 +244,7 @@ pub fn number(random: &mut Random) -> String {
     }
 }
 
-/// A whole number as a text; small, mostly.
+/// A whole number as a text, usually small.
 pub fn whole(random: &mut Random) -> String {
     match random.below(24) {
         0 => one(random, ODD_NUMBERS).to_owned(),
@@ -253,7 +254,7 @@ pub fn whole(random: &mut Random) -> String {
     }
 }
 
-/// A name as a text; one of few, mostly, so that two of them meet.
+/// A name as a text, usually one of a few, so that names coincide.
 pub fn word(random: &mut Random) -> String {
     match random.below(16) {
         0 => one(random, ODD_WORDS).to_owned(),

@@ -1,15 +1,15 @@
-//! Inputs that nobody would write, for all that reads a file, a setting or a shader.
+//! Inputs that nobody would write, for every reader of a file, a setting or a shader.
 //!
-//! - [`format`]: what is read: its grammar, what is tried beside it, and who reads it
-//! - [`formats`]: one file each
-//! - [`grammar`], [`mutation`]: where inputs come from
-//! - [`session`]: the loop; inputs that bring an answer not heard before are built upon
-//! - [`watch`], [`meter`]: a reader in this process, held to a time and to memory
-//! - [`program`]: a whole process, held to its exit code, its one line and its folder
-//! - [`fault`]: what is not allowed, and the file that brings it back
+//! - [`format`]: a format: its grammar, its examples and its reader
+//! - [`formats`]: one per file
+//! - [`grammar`], [`mutation`]: generate inputs
+//! - [`session`]: the loop; inputs that cause a new answer are mutated further
+//! - [`watch`], [`meter`]: a reader in this process, with limits on time and memory
+//! - [`program`]: a process; checks its exit code, its message and its folder
+//! - [`fault`]: the forbidden outcomes, and the file that reproduces one
 //!
-//! Random numbers are seeded, and how many inputs are tried does not depend on the time: the same seed tries
-//! the same inputs on every machine.
+//! Random numbers are seeded, and the number of inputs does not depend on the time: the same seed tries the
+//! same inputs on every machine.
 
 pub mod fault;
 pub mod format;

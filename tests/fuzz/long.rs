@@ -1,4 +1,4 @@
-//! For longer than a test lasts, and one input again.
+//! Runs for longer than a test, or tries one input again.
 
 use std::time::{Duration, Instant};
 
@@ -33,13 +33,14 @@ impl Either {
     }
 }
 
-/// A number of the environment.
+/// A number from the environment.
 fn number(name: &str) -> Option<u64> {
     let text = std::env::var(name).ok()?;
     Some(text.parse().unwrap_or_else(|_| panic!("{name}={text} is no whole number")))
 }
 
-/// The readers that `FUZZ_READER` names by a part of their names, or all.
+/// Returns whether `FUZZ_READER` selects this reader, by a part of its name; without the variable, all are
+/// selected.
 fn is_wanted(name: &str) -> bool {
     std::env::var("FUZZ_READER").map_or(true, |wanted| name.contains(&wanted))
 }
@@ -59,7 +60,7 @@ fn for_long() {
     assert!(!sessions.is_empty(), "no reader has such a name");
     let end = Instant::now() + Duration::from_secs(seconds);
     let mut found = Vec::new();
-    // In turns of a second, so that a run that is cut short has seen all of them.
+    // Alternates every second, so that an interrupted run has tried all readers.
     while Instant::now() < end && !sessions.is_empty() {
         sessions.retain_mut(|(name, session)| {
             let turn = Instant::now() + Duration::from_secs(1);
@@ -68,7 +69,7 @@ fn for_long() {
                     let told = fault.keep();
                     println!("{told}\n");
                     found.push(told);
-                    // Others may find more meanwhile.
+                    // The other readers may continue.
                     println!("{name}: no further");
                     return false;
                 }
@@ -95,7 +96,7 @@ fn one_input() {
     }
 }
 
-/// Result of the named reader for an input.
+/// The answer of the named reader to an input.
 fn answer(reader: &str, input: &[u8]) -> Result<Answer, Fault> {
     if let Some((format, function, _)) = FUNCTIONS.into_iter().find(|one| one.0.name == reader) {
         return Watch::new(format, function).ask(input);

@@ -1,8 +1,8 @@
-//! Inputs that nobody would write: none brings about a panic, a wait without an end, memory without a bound, a
-//! message that is no line, or a file that is left behind.
+//! Inputs that nobody would write: none causes a panic, an endless wait, unbounded memory, an invalid
+//! message, or a file that is left behind.
 //!
-//! `cargo test --test fuzz` tries the same inputs on every machine, for about a minute. For longer, with other
-//! ones: `FUZZ_SECONDS=3600 FUZZ_SEED=7 cargo test --test fuzz for_long -- --ignored --nocapture`.
+//! `cargo test --test fuzz` tries the same inputs on every machine, for about a minute. To try others for
+//! longer: `FUZZ_SECONDS=3600 FUZZ_SEED=7 cargo test --test fuzz for_long -- --ignored --nocapture`.
 
 mod functions;
 mod long;
@@ -16,7 +16,7 @@ use fuzz::session::Session;
 /// Default seed of the random numbers; `FUZZ_SEED` sets another.
 const SEED: u64 = 18;
 
-/// Tries so many inputs; the first fault fails the test, and says how to bring it back.
+/// Tries this many inputs; the first fault fails the test, with a message that says how to reproduce it.
 #[track_caller]
 fn tried<R: Reader>(mut session: Session<R>, count: usize) {
     let start = std::time::Instant::now();

@@ -1,4 +1,4 @@
-//! Rust's allocator, counted: what reads in this process is Rust alone.
+//! Rust's allocator with a counter; all readers in this process are written in Rust.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
@@ -9,8 +9,8 @@ struct Counted;
 #[global_allocator]
 static COUNTED: Counted = Counted;
 
-// SAFETY: every call is passed on as it came; counting allocates nothing, does not unwind, and comes before the
-// memory is taken, so that who may have no more takes none.
+// SAFETY: every call is passed on unchanged. Counting allocates nothing, does not unwind, and precedes the
+// allocation, so that a thread at its limit allocates nothing.
 unsafe impl GlobalAlloc for Counted {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);

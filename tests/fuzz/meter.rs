@@ -1,34 +1,35 @@
-//! Memory, counted by the thread that asks for it, and an end to it.
+//! Counts and limits the memory allocated by a thread.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 thread_local! {
-    /// Bytes that this thread has, or minus those of others that it freed.
+    /// The bytes allocated by this thread; negative if it freed more of others' memory.
     static LIVE: Cell<isize> = const { Cell::new(0) };
     static MOST: Cell<isize> = const { Cell::new(isize::MAX) };
     static EXCEEDED: Cell<Option<&'static AtomicBool>> = const { Cell::new(None) };
 }
 
-/// From now on this thread may have so many bytes more than it has; `exceeded` is set when it asks for more.
+/// From now on, this thread may allocate this many bytes; `exceeded` is set if it requests more.
 pub fn allow(bytes: usize, exceeded: &'static AtomicBool) {
     LIVE.set(0);
     EXCEEDED.set(Some(exceeded));
     MOST.set(bytes as isize);
 }
 
-/// The thread may have as much as it likes again.
+/// Removes the thread's limit.
 pub fn allow_all() {
     MOST.set(isize::MAX);
 }
 
-/// Takes note of bytes that this thread gets, or gives back.
+/// Counts bytes that this thread allocates or frees.
 ///
-/// A thread that asks for more than it may have gets nothing, and no error that it could pass on: it sleeps for
-/// good, and whoever waits for it learns why. So an input that takes all memory ends no test.
+/// A thread that requests more than its limit gets neither memory nor an error it could pass on: it sleeps
+/// forever, and the waiting thread learns why. An input that takes all memory therefore does not end the
+/// test.
 pub fn count(bytes: isize) {
-    // A thread that ends has no counter left.
+    // During a thread's destruction, the counter no longer exists.
     let live = LIVE.try_with(|live| {
         live.set(live.get().saturating_add(bytes));
         live.get()

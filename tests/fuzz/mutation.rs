@@ -1,11 +1,11 @@
-//! From one input to another: bytes, words and lines are changed, doubled, left out and moved.
+//! Mutates inputs: changes, duplicates, removes and moves bytes, words and lines.
 
 use reference::random::Random;
 
 use crate::grammar::{ODD_NUMBERS, ODD_WORDS};
 
-/// Changes an input in one to four places. `other` is an input to take parts from, `words` what stands in
-/// inputs of this kind.
+/// Changes an input in one to four places. `other` is an input to copy parts from, `words` are the words of
+/// the format.
 pub fn mutate(
     random: &mut Random,
     input: &[u8],
@@ -25,7 +25,7 @@ pub fn mutate(
     bytes
 }
 
-/// A range of at most so many, within a length.
+/// A range of at most `most` elements within a length.
 fn range(random: &mut Random, length: usize, most: usize) -> std::ops::Range<usize> {
     let start = random.below(length + 1);
     start..start + random.below((length - start).min(most) + 1)
@@ -36,7 +36,7 @@ fn by_bytes(random: &mut Random, bytes: &mut Vec<u8>, other: &[u8]) {
     match random.below(8) {
         0 if length > 0 => bytes[random.below(length)] ^= 1 << random.below(8),
         1 if length > 0 => bytes[random.below(length)] = random.bits() as u8,
-        // Numbers of several bytes, of either order.
+        // Numbers of several bytes, in either byte order.
         2 if length >= 4 => {
             let odd = [0, 1, 0x7f, 0x80, 0xffff, 0x7fff_ffff, 0x8000_0000, u32::MAX, u32::MAX - 1];
             let odd = odd[random.below(odd.len())];
@@ -51,7 +51,7 @@ fn by_bytes(random: &mut Random, bytes: &mut Vec<u8>, other: &[u8]) {
             let at = random.below(length + 1);
             bytes.splice(at..at, part);
         }
-        // The beginning of one and the end of the other.
+        // The beginning of one input and the end of the other.
         6 => {
             bytes.truncate(random.below(length + 1));
             bytes.extend(&other[random.below(other.len() + 1)..]);
@@ -68,7 +68,7 @@ fn is_of_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || b"_.+-".contains(&byte) || byte >= 0x80
 }
 
-/// Parts that consist only of bytes of a kind.
+/// The parts that consist only of bytes of a kind.
 fn parts(bytes: &[u8], is_of: impl Fn(u8) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut parts = Vec::new();
     let mut start = None;
@@ -105,7 +105,7 @@ fn by_parts(
         2 if !words.is_empty() => put(bytes, at, words[random.below(words.len())]),
         3 => drop(bytes.drain(at)),
         4 => drop(bytes.splice(at.start..at.start, taken)),
-        // So often that what is bounded by one is not by all.
+        // Often enough to exceed a limit that counts repetitions.
         5 => {
             let end = (at.end + 1).min(bytes.len());
             let part = bytes[at.start..end].to_vec();

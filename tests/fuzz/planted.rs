@@ -1,4 +1,4 @@
-//! Faults planted where few inputs lead: one of each kind, and each is found.
+//! Faults planted where few inputs lead, one of each kind. Each must be found.
 
 use std::path::Path;
 use std::process::Command;
@@ -19,12 +19,12 @@ use time_limit::{Limit, Work};
 
 use crate::SEED;
 
-/// Inputs within which a fault is to be found: fewer than `cargo test` tries of models.
+/// The number of inputs within which a fault must be found: fewer than `cargo test` tries for models.
 const BUDGET: usize = 4000;
 
-/// Limit where nothing sleeps: work decides.
+/// Limit if nothing sleeps: processor time.
 const AWAKE: Limit = Limit::worked(3);
-/// Limit where the planted fault sleeps: the clock decides, and a reader delayed by others has the same fault.
+/// Limit if the planted fault sleeps: time on the clock. A reader delayed by others has the same fault.
 const SLEEPY: Limit = Limit::waited(Duration::from_secs(3));
 
 /// The fault found in a reader of inputs of a format.
@@ -36,7 +36,7 @@ fn found(format: Format, reader: impl Reader) -> Found {
     found
 }
 
-/// The fault found with a function in place of the one that reads models.
+/// The fault found with this function instead of the reader of models.
 #[track_caller]
 fn found_in(read: fn(&Path) -> Result<String>) -> Fault {
     found_within(AWAKE, read)
@@ -48,12 +48,12 @@ fn found_within(patience: Limit, read: fn(&Path) -> Result<String>) -> Fault {
     found(FORMAT, watch.within(patience)).fault
 }
 
-/// Tests whether a model is refused for this.
+/// Returns whether a model is refused for this reason.
 fn refused_for(path: &Path, what: &str) -> bool {
     load(path).is_err_and(|error| error.to_string().contains(what))
 }
 
-/// Tests whether a model is accepted with such a warning.
+/// Returns whether a model is accepted with this warning.
 fn warned_of(path: &Path, what: &str) -> bool {
     load(path).is_ok_and(|model| model.warnings.join(" ").contains(what))
 }
@@ -109,7 +109,7 @@ fn work_without_an_end_is_found() {
     let fault = found_in(|path| {
         if warned_of(path, "normal index") {
             work_for(AWAKE.processor * 2);
-            // The test is over by then: nobody else need wait for this thread.
+            // The test is over by then, so nobody waits for this thread.
             sleep(Duration::MAX);
             bail!("an end")
         } else {
@@ -144,7 +144,7 @@ fn memory_without_a_bound_is_found() {
 
 #[test]
 fn memory_for_what_a_header_promises_is_found() {
-    // As many texels as the file says, whatever it has: nothing of them is ever touched.
+    // As many texels as the file declares, whatever it contains; they are never touched.
     let read = |path: &Path| {
         let bytes = std::fs::read(path)?;
         let side = |at: usize| {
@@ -199,8 +199,8 @@ fn what_is_found_is_kept_and_is_the_same_in_the_next_run() {
     assert_eq!(again.unwrap_err(), first.fault);
 }
 
-/// The fault found in a program that does this to a model with an index that counts backwards, and refuses all
-/// others as it should.
+/// The fault found in a program that does this to a model with a negative index, and refuses all others
+/// correctly.
 #[cfg(unix)]
 #[track_caller]
 fn found_in_program(patience: Limit, command: fn(&Path, &[u8]) -> Command) -> Fault {
@@ -251,7 +251,7 @@ planted! {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_program_that_takes_all_memory_is_found() {
-    // What it reads has no line's end, so it keeps all of it.
+    // Its input has no line break, so it buffers all of it.
     let command: fn(&Path, &[u8]) -> Command = |_, _| {
         let mut command = Command::new("tail");
         command.arg("/dev/zero");

@@ -1,4 +1,4 @@
-//! A whole process: held to its exit code, its one line, its time, its memory and its folder.
+//! Runs a process, and checks its exit code, its message, its time, its memory and its folder.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -13,27 +13,27 @@ use time_limit::{GLANCE, Limit, Work};
 use crate::fault::Fault;
 use crate::format::{Answer, Format, Reader};
 
-/// After this time nobody waits any longer.
+/// The limit of a run.
 const PATIENCE: Limit = Limit::worked(180);
-/// Bytes that a process may have, a device and its shader compiler among them.
+/// The largest number of bytes of a process, including a device and its shader compiler.
 const MEMORY: u64 = 1 << 30;
-/// Letters of a line: `output` cuts at 2000, and escapes them before.
+/// The largest number of letters of a message: `output` cuts at 2000, and escapes them before.
 const LETTERS: usize = 30_000;
 
-/// A program that is shown an input.
+/// A program that reads an input.
 pub struct Program {
     folder: TempDir,
-    /// Directory of its temporary files.
+    /// The directory of its temporary files.
     passing: TempDir,
     format: Format,
     command: fn(folder: &Path, input: &[u8]) -> Command,
-    /// Files that it may write.
+    /// The files that it may write.
     writes: &'static [&'static str],
     patience: Limit,
 }
 
 impl Program {
-    /// A program in a folder of its own; `beside` writes the files that inputs name.
+    /// A program in its own folder; `beside` writes the files that inputs refer to.
     pub fn new(
         format: Format,
         beside: fn(&Path),
@@ -45,7 +45,7 @@ impl Program {
         Self { folder, passing, format, command, writes, patience: PATIENCE }
     }
 
-    /// The same, with less patience.
+    /// The same with a shorter limit.
     #[must_use]
     pub fn within(self, patience: Limit) -> Self {
         Self { patience, ..self }
@@ -72,7 +72,7 @@ impl Program {
     }
 }
 
-/// Waits, and looks how much memory it has meanwhile.
+/// Waits for its end, and checks its memory meanwhile.
 fn end(child: &mut Child, patience: Limit) -> Result<(), Fault> {
     let (start, work) = (Instant::now(), Work::from(&*child));
     while child.try_wait().expect("a child can be waited for").is_none() {
@@ -87,7 +87,7 @@ fn end(child: &mut Child, patience: Limit) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The most bytes that a process has had, where the system tells.
+/// The largest memory of a process in bytes, if the system reports it.
 fn memory(id: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{id}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -118,7 +118,7 @@ impl Reader for Program {
     }
 }
 
-/// Refused in one line, or taken with warnings, a line each.
+/// The answer: refused with one line, or accepted with warnings, one line each.
 fn answer(code: i32, said: &[u8]) -> Result<Answer, Fault> {
     let Ok(text) = std::str::from_utf8(said) else {
         return Err(Fault::Line(String::from_utf8_lossy(said).into_owned()));
@@ -159,7 +159,7 @@ fn files(folder: &Path) -> BTreeSet<PathBuf> {
     files
 }
 
-/// The words of an input's lines, as arguments: what no argument can be is left out.
+/// The words of an input's lines as arguments, without those that cannot be arguments.
 pub fn lines(input: &[u8]) -> Vec<OsString> {
     let text = String::from_utf8_lossy(input).replace('\0', "");
     text.lines().filter(|line| !line.is_empty()).map(OsString::from).collect()

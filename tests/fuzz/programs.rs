@@ -1,4 +1,4 @@
-//! Whole processes: what reads an input, and all that happens before and after.
+//! Processes that read an input.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use fuzz::session::Session;
 
 use crate::{SEED, tried};
 
-/// A program, and how many inputs `cargo test` shows it.
+/// A program, and the number of inputs tried by `cargo test`.
 #[derive(Clone, Copy)]
 pub struct Tried {
     pub name: &'static str,
@@ -74,7 +74,7 @@ pub const ALL: [Tried; 10] = [
         format: settings::FORMAT,
         beside: nothing,
         command: |_, input| {
-            // One for each option that takes a text, in turns; what is accepted is only listed.
+            // Each option with a text in turn; accepted values are only listed.
             let options = ["--set", "--compare", "--samples", "--size", "--device", "--scene"];
             let mut command = sample("02_basic");
             for (line, option) in lines(input).into_iter().zip(options.into_iter().cycle()) {
@@ -163,7 +163,7 @@ pub const ALL: [Tried; 10] = [
     },
 ];
 
-/// The compiler of shaders, in a process of its own: it is not ours.
+/// The shader compiler, in its own process, because its code is not ours.
 pub const SHADERS: Tried = Tried {
     name: "shaders",
     format: shader::FORMAT,
@@ -177,7 +177,7 @@ pub const SHADERS: Tried = Tried {
     count: 80,
 };
 
-/// The program, ready to be asked.
+/// The program, ready to read.
 pub fn reader(tried: Tried) -> Program {
     Program::new(tried.format, tried.beside, tried.command, tried.writes)
 }

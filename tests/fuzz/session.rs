@@ -1,4 +1,4 @@
-//! The loop: inputs are made and changed, and those that bring an answer not heard before are built upon.
+//! The loop: generates and mutates inputs, and continues from those that cause a new answer.
 
 use std::collections::HashSet;
 
@@ -8,7 +8,7 @@ use crate::fault::Found;
 use crate::format::{Format, Reader};
 use crate::mutation::mutate;
 
-/// Inputs that are kept to build upon, at most.
+/// The largest number of inputs kept for mutation.
 const KEPT: usize = 1000;
 
 /// Inputs for one reader, one after the other.
@@ -19,17 +19,17 @@ pub struct Session<R> {
     seed: u64,
     random: Random,
     words: Vec<&'static str>,
-    /// Inputs to build upon.
+    /// The inputs to mutate.
     kept: Vec<Vec<u8>>,
-    /// The gists of the answers that were heard.
+    /// The gists of all answers so far.
     heard: HashSet<String>,
-    /// Inputs that are tried as they are, last first.
+    /// Inputs to try unchanged, last first.
     waiting: Vec<Vec<u8>>,
     number: usize,
 }
 
 impl<R: Reader> Session<R> {
-    /// Begins with the inputs of the format and of the corpus.
+    /// Begins with the examples of the format and the inputs of the corpus.
     pub fn new(name: &'static str, format: Format, reader: R, seed: u64) -> Self {
         let waiting = (format.seeds)();
         let words = format.grammar.map(|grammar| grammar().words().collect()).unwrap_or_default();
@@ -56,7 +56,7 @@ impl<R: Reader> Session<R> {
         if self.kept.is_empty() || random.below(3) == 0 {
             return (self.format.make)(random);
         }
-        // What was found last is likely to lead on.
+        // Recent inputs are more likely to lead to new answers.
         let recent = self.kept.len() - random.below(self.kept.len().min(20)) - 1;
         let any = random.below(self.kept.len());
         let base = if random.below(2) == 0 { recent } else { any };
@@ -74,7 +74,7 @@ impl<R: Reader> Session<R> {
     /// Tries one input.
     ///
     /// # Errors
-    /// With what it brought about, if that is not allowed.
+    /// The fault it caused.
     pub fn step(&mut self) -> Result<(), Found> {
         let input = self.input();
         let number = self.number;
@@ -90,15 +90,15 @@ impl<R: Reader> Session<R> {
         }
     }
 
-    /// Tries so many.
+    /// Tries this many inputs.
     ///
     /// # Errors
-    /// With the first that is not allowed.
+    /// The first fault.
     pub fn steps(&mut self, count: usize) -> Result<(), Found> {
         (0..count).try_for_each(|_| self.step())
     }
 
-    /// Number of inputs tried, and of different answers.
+    /// The number of inputs tried, and of different answers.
     pub fn told(&self) -> (usize, usize) {
         (self.number, self.heard.len())
     }

@@ -1,4 +1,4 @@
-//! A reader in this process: on a thread of its own, which may panic, hang, or ask for more memory than it gets.
+//! A reader on a thread of this process, which may panic, hang, or exceed its memory.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe, catch_unwind};
@@ -16,20 +16,20 @@ use crate::fault::Fault;
 use crate::format::{Answer, Format, Function, Reader};
 use crate::meter;
 
-/// An answer is to take no more than this of a processor.
+/// The longest processor time of an answer.
 const QUICK: Duration = Duration::from_secs(1);
-/// After this nobody waits any longer.
+/// The limit of a wait.
 const PATIENCE: Limit = Limit::worked(20);
 
 /// The threads' name.
 const READER: &str = "reader";
 
 thread_local! {
-    /// Message of this thread's last panic.
+    /// The message of this thread's last panic.
     static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// A function that reads files, watched.
+/// A watched function that reads files.
 pub struct Watch {
     folder: TempDir,
     format: Format,
@@ -46,14 +46,14 @@ struct Worker {
 }
 
 impl Watch {
-    /// The reader of a format, in a folder of its own.
+    /// The reader of a format, in its own folder.
     pub fn new(format: Format, function: Function) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         (function.beside)(folder.path());
         Self { folder, format, function, worker: None, patience: PATIENCE }
     }
 
-    /// The same, with less patience.
+    /// The same with a shorter limit.
     #[must_use]
     pub fn within(self, patience: Limit) -> Self {
         Self { patience, ..self }
@@ -85,7 +85,7 @@ impl Watch {
                 }
             }
         };
-        // Who hangs, hangs on; another goes on with the next input.
+        // A hanging thread is abandoned; another one continues with the next input.
         if answer.is_err() {
             self.worker = None;
         }
@@ -101,7 +101,7 @@ impl Reader for Watch {
             return Err(Fault::Slow(worked));
         }
         if let Answer::Refused(line) = &answer {
-            // Newlines that a file holds are shown as \n, as is all that a terminal would act on.
+            // Newlines from a file are shown as \n, and so are all control characters of terminals.
             let is_line = !line.trim().is_empty() && !line.contains('\n');
             let names_file = line.contains(&*folder_name(&self.folder));
             if !is_line || !names_file {
@@ -144,8 +144,8 @@ impl Worker {
     }
 }
 
-/// A panic of a reader is noted, with its place, and printed with the input that brought it about. A backtrace
-/// would be made from the memory that the reader may have.
+/// Records a reader's panic with its place, to be printed with the input that caused it. A backtrace would
+/// use the memory that the reader may have.
 fn quiet() {
     let usual = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
@@ -158,7 +158,7 @@ fn quiet() {
     }));
 }
 
-/// The folder's name, which is part of every path in it.
+/// The folder's name, which occurs in every path inside it.
 fn folder_name(folder: &TempDir) -> String {
     folder.path().file_name().expect("it has one").to_string_lossy().into_owned()
 }

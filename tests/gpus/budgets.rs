@@ -1,9 +1,11 @@
-//! Every chapter's default pipeline under a GPU's own compiler, held to what is recorded of it.
+//! Compiles every chapter's default pipeline with a GPU's own compiler, and compares the figures with the
+//! recorded ones.
 //!
-//! `budgets.json` says what Mesa's RADV made of each chapter when it was last changed on purpose, for each Mesa
-//! that was asked. A figure may not get worse unless the same commit writes it anew, with
-//! `UPDATE=1 cargo test --test gpus`. Every reader is held to the figures of his own Mesa; of one that was not
-//! asked the test reports, and does not fail. Mesa itself keeps what it has compiled, by the shaders and its own
+//! `budgets.json` records the figures of Mesa's RADV for each chapter when it was last changed on purpose,
+//! for each version of Mesa that was used. A figure may not get worse unless the same commit records it
+//! again, with `UPDATE=1 cargo test --test gpus`. Figures are compared with those of the same Mesa; for one
+//! without records the test only prints them. Mesa caches its results by shader and version, so only changes
+//! are compiled again.
 //! version: only what has changed is compiled again.
 
 use std::collections::BTreeMap;
@@ -11,21 +13,21 @@ use std::fs;
 
 use serde_json::{Map, Value, json};
 
-/// Figures recorded of a chapter for a family. In all except the waves, more is worse.
+/// The recorded figures of a chapter for a family. For all except the waves, more is worse.
 const FIGURES: [&str; 6] =
     ["programs", "instructions", "registers", "spilled_registers", "scratch_bytes", "waves"];
-/// Instructions may grow by so much before it counts: a constant more is no decision.
+/// The factor by which instructions may grow: one more constant is not a decision.
 const SLACK: f64 = 1.02;
 
-/// The families that figures are recorded for.
+/// The families with recorded figures.
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
-/// A chapter's figures for one family or for `all`, and the Mesa that gave them; `None` where there is no such
-/// compiler.
+/// A chapter's figures for one family or for `all`, and the Mesa that produced them; `None` if the compiler
+/// is not installed.
 fn compiled(chapter: &str, asked: &str) -> Option<(Value, String)> {
     let rows = run::compiled_for(chapter, asked, &["--size", "16x10"])?;
     let compiler = rows[0]["compiler"].as_str().expect("a compiler");
-    // Such as "radv Mesa 25.0.7-2~bpo12+1": who packaged it changes no figure.
+    // For "radv Mesa 25.0.7-2~bpo12+1", for example: the packager does not affect the figures.
     let mesa = compiler.split_once("Mesa ").map_or(compiler, |(_, version)| version);
     let mesa = mesa.split(['-', ' ']).next().unwrap_or(mesa).to_owned();
     let mut families = BTreeMap::new();
@@ -50,7 +52,7 @@ fn compiled(chapter: &str, asked: &str) -> Option<(Value, String)> {
     Some((json!(families), format!("Mesa {mesa}")))
 }
 
-/// Figures that are worse than recorded, one line each.
+/// The figures that are worse than recorded, one line each.
 fn worse(chapter: &str, now: &Value, recorded: &Value) -> Vec<String> {
     let Some(families) = now.as_object() else { return Vec::new() };
     let mut lines = Vec::new();
@@ -74,7 +76,7 @@ fn worse(chapter: &str, now: &Value, recorded: &Value) -> Vec<String> {
     lines
 }
 
-/// Figures that are worse than recorded of this Mesa, and those recorded of no Mesa at all.
+/// The figures that are worse than recorded for this Mesa, and those without any record.
 fn faults(recorded: &Value, mesa: &str, now: &BTreeMap<String, Value>) -> Vec<String> {
     let known = |chapter: &str| {
         let mut all = recorded.as_object().into_iter().flat_map(Map::values);
@@ -90,7 +92,7 @@ fn faults(recorded: &Value, mesa: &str, now: &BTreeMap<String, Value>) -> Vec<St
     lines
 }
 
-/// Records what this Mesa makes of the chapters. Of a chapter that has changed nothing is known of another.
+/// Records this Mesa's figures. For a chapter that has changed, the records of other versions are removed.
 fn record(recorded: &Value, mesa: &str, now: BTreeMap<String, Value>) -> Value {
     let mut all = recorded.as_object().cloned().unwrap_or_default();
     if let Some(before) = all.remove(mesa) {
@@ -182,11 +184,12 @@ fn a_reader_is_held_to_the_figures_of_his_own_mesa() {
         faults(&recorded, "Mesa 2", &now(100, 200)),
         ["02 navi31: instructions 50 before, 100 now"]
     );
-    // Nobody has asked this one: what is recorded of another is not its measure.
+    // This version has no records, and those of another do not apply to it.
     assert_eq!(faults(&recorded, "Mesa 3", &now(1000, 2000)), [""; 0]);
     let new = BTreeMap::from([("04".to_owned(), figures(1))]);
     assert_eq!(faults(&recorded, "Mesa 3", &new).len(), FIGURES.len());
-    // What has changed, or is gone, is no longer known of the other; a first record changes nothing.
+    // Records of other versions are removed for chapters that have changed or are gone; a first record
+    // removes nothing.
     let changed = record(&recorded, "Mesa 1", now(90, 200));
     assert_eq!(changed, json!({ "Mesa 1": now(90, 200), "Mesa 2": {} }));
     let first = record(&recorded, "Mesa 3", now(1, 2));

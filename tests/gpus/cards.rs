@@ -1,4 +1,4 @@
-//! Every chapter under a GPU's whole driver, without the GPU: Radeon cards that are not there.
+//! Runs every chapter on a GPU's complete driver without the GPU: stand-ins for Radeon cards.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use run::cards::{Card, refusal, report, said};
 use run::layer::Layer;
 use run::{chapters, command};
 
-/// The card that every plain run of the tests takes, and its name.
+/// The card used by every plain run of the tests.
 const CARD: Card = Card("navi31");
 const NAME: &str = "AMD Radeon RX 7900 XTX (RADV NAVI31)";
 /// The other cards with ray tracing: the first four in the shim of Mesa 25.0.7, all but `gfx1150` in that of 26.2.6.
@@ -21,13 +21,13 @@ const OTHERS: [Card; 9] = [
     Card("phoenix"),
     Card("rembrandt"),
 ];
-/// A card without ray tracing, and its name.
+/// A card without ray tracing.
 const OLD: Card = Card("navi10");
 const OLD_NAME: &str = "AMD Radeon RX 5700 XT (RADV NAVI10)";
 
 const TINY: [&str; 4] = ["--headless", "--validate", "--size", "16x10"];
 
-/// Runs every chapter on a card, each to its end.
+/// Runs every chapter on a card to its end.
 fn runs_all(card: Card) {
     let name = format!("(RADV {})", card.0.to_uppercase());
     for sample in chapters() {
@@ -60,7 +60,7 @@ fn shows_all(sample: &str) {
     }
 }
 
-/// In a window they are asked for wherever a driver has them: no reason to close it.
+/// In a window, the figures are requested from every driver; without them it stays open.
 #[test]
 fn a_driver_that_tells_no_figures_of_its_compiler_is_a_warning() {
     let Some(mut command) = CARD.command("02_basic") else { return };
@@ -85,7 +85,7 @@ fn every_chapter_runs_on_every_card_that_the_shim_has() {
     OTHERS.into_iter().filter(|card| card.is_known()).for_each(runs_all);
 }
 
-/// Mirrors by recursion make another pipeline of the same shaders, and each view one more.
+/// Recursive mirrors need another pipeline of the same shaders, and each view one more.
 #[test]
 fn each_view_of_a_chapter_runs_there_too() {
     shows_all("06_reflection");
@@ -165,7 +165,7 @@ fn a_card_s_limits_and_memory_bound_a_picture() {
     let limit = |name: &str| limits[name].as_u64().expect("a whole number");
     let side = limit("max_image_dimension");
     let rays = limit("max_ray_dispatch_invocation_count");
-    // A list of all hits takes 384 bytes a pixel, in one buffer.
+    // A list of all hits needs 384 bytes per pixel, in one buffer.
     let room = limit("max_buffer_size") / 384;
     let square = |pixels: u64| pixels.isqrt() + 1;
     let size = |side: u64| format!("{side}x{side}");
@@ -179,7 +179,7 @@ fn a_card_s_limits_and_memory_bound_a_picture() {
             &["--set", "mode=all hits"][..],
             [lists, &format!("has room for {room} pixels")],
         ),
-        // One buffer may be so large, and the driver has no memory for it: it says so, and we do.
+        // The buffer's size is allowed, but the driver is out of memory; both report that.
         (
             size(square(room) - 16),
             &["--set", "mode=all hits"][..],
@@ -194,7 +194,7 @@ fn a_card_s_limits_and_memory_bound_a_picture() {
     }
 }
 
-/// A request to one card's compiler goes by way of another process, whatever card this one has.
+/// A request to one card's compiler uses another process, whichever card this one has.
 #[test]
 fn one_card_s_program_asks_another_card_s_compiler() {
     let Some(mut command) = Card("navi21").command("02_basic") else { return };

@@ -1,21 +1,21 @@
-//! The device that tests run on, on a machine that has a Radeon and the software driver: the card is not there, but
-//! its whole driver is (Mesa's drm-shim), which computes nothing.
+//! The choice of the tests' device on a machine with a Radeon and the software driver. The card is a
+//! stand-in: its driver is complete (Mesa's drm-shim), but computes nothing.
 
 use std::process::Command;
 
 use common::gpu::{Gpu, GpuOptions, Requirements};
 use run::cards::Card;
 
-/// The two that make an instance of their own.
+/// The two chapters that create their own instance.
 const CHAPTERS: [&str; 2] = ["01_foundation", "02_basic"];
 
-/// Devices that a test program started with `GPU` finds: by itself, by 01 and by another chapter; `None` where
+/// The devices found by a test program started with `GPU`: by itself, by 01 and by another chapter; `None` if
 /// there is no such card.
 fn found(gpu: Option<&str>) -> Option<Vec<String>> {
     let this = std::env::current_exe().expect("a running program has a file");
     let mut command = Command::new(this);
     command.args(["--exact", "choice::say_which", "--ignored", "--nocapture"]);
-    // As at the start of `cargo test`: nothing has been chosen.
+    // As at the start of `cargo test`, when nothing has been chosen.
     if !Card("navi31").found_by(&mut command, gpu) {
         return None;
     }

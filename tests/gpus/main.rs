@@ -1,5 +1,5 @@
-//! GPUs that are not here: cards whose drivers are, what their compilers make of the chapters, and the narrowest
-//! device that Vulkan allows.
+//! GPUs without the hardware: complete drivers of cards, the figures of their compilers for the chapters, and
+//! the narrowest device Vulkan allows.
 
 mod budgets;
 #[cfg(target_os = "linux")]

@@ -1,4 +1,4 @@
-//! Every sample on the narrowest device that Vulkan allows: a layer hides what need not be there.
+//! Every sample on the narrowest device Vulkan allows: a layer hides everything optional.
 
 use std::process::Output;
 
@@ -54,7 +54,7 @@ const FEATURES: [(&str, &[&str]); 8] = [
 ];
 // ANCHOR_END: features
 
-/// Further settings of samples that use more of a device than their own: other stages, larger tables, more memory.
+/// Further settings of samples that need more of a device: other stages, larger tables, more memory.
 const ALSO: [(&str, &[&str]); 9] = [
     ("03_any_hit", &["--set", "mode=all hits"]),
     ("03_any_hit", &["--set", "mode=random", "--set", "no duplicates=on"]),
@@ -67,7 +67,7 @@ const ALSO: [(&str, &[&str]); 9] = [
     ("30_own_tree", &["--set", "tree=device"]),
 ];
 
-/// Standard output of a run that succeeded in silence, and so without a validation message.
+/// The standard output of a successful run without messages, including those of validation.
 #[track_caller]
 pub fn quiet(what: &str, output: Output) -> String {
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -99,15 +99,16 @@ fn every_sample_runs_on_the_narrowest_device() {
             assert_eq!(code, 1);
             assert!(line.contains("no device can run this: 0: narrow "), "{line}");
             assert!(line.contains(lacks), "{line}");
-            // The layer sees the barriers of those whose rays need no pipeline as well.
+            // The layer also sees the barriers of samples that trace without a pipeline.
             if !lacks.contains("Float32") {
                 runs(&Layer::minimum_limits("queries"), &sample, &["--frames", "3"]);
             }
             continue;
         }
-        // What one frame writes, the next one reads or overwrites: the layer sees the barriers between them.
+        // Each frame reads or overwrites the results of the previous one, so that the layer sees the barriers
+        // between frames.
         let report = runs(&narrow, &sample, &["--frames", "3"]);
-        // There are no timestamps: the host's clock serves.
+        // There are no timestamps, so the host's clock is used.
         assert!(report["gpu_milliseconds"]["median"].as_f64().unwrap() > 0.0, "{sample}");
     }
 }
@@ -164,7 +165,7 @@ fn each_feature_is_asked_for_by(samples: &[String]) {
     }
 }
 
-/// The laboratory needs no more than the others, and says of a rung what it lacks.
+/// The laboratory needs no more than the others, and reports what a rung lacks.
 #[test]
 fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
     let narrow = Layer::minimum_limits("");
@@ -179,7 +180,7 @@ fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
     assert!(measured.contains("does not offer shaderRoundingModeRTEFloat32"), "{measured:.1000}");
 }
 
-/// So does its atlas of a row; and it needs no more than the promised limits for all others.
+/// The same holds for its atlas, row by row; all other rows need no more than the promised limits.
 #[test]
 fn the_atlas_asks_what_the_narrowest_device_can_do() {
     let narrow = Layer::minimum_limits("");
@@ -210,8 +211,8 @@ fn a_card_without_graphics_traces_without_a_window() {
     }
 }
 
-/// A sample that draws, or makes mip levels by blits, needs a queue that draws, and says so beside what else is
-/// missing.
+/// A sample that draws, or makes mip levels by blits, needs a graphics queue, and reports it together with
+/// everything else that is missing.
 #[test]
 fn a_card_without_graphics_is_refused_by_what_draws() {
     let lacks = |sample: &str, faults: &str, what: &str| {
@@ -227,8 +228,8 @@ fn a_card_without_graphics_is_refused_by_what_draws() {
     assert!(!lacks("17_ray_query_raster", "", "feature dynamicRendering"));
 }
 
-/// Counts of the layer on a run of a sample: submissions, and allocations in the device, in the host, and in the
-/// device where the host can map it.
+/// The layer's counts for a run of a sample: submissions, and allocations in device memory, in host memory,
+/// and in device memory the host can map.
 #[track_caller]
 fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
     counted_and_told(faults, sample, arguments).0
@@ -250,11 +251,12 @@ fn counted_and_told(
     (numbers.try_into().expect("four numbers"), report)
 }
 
-/// A picture of one row is one band, and a band is one submission. What a camera that moves brings to the
-/// device goes with it: nothing else is submitted and waited for.
+/// A picture of one row is one band, and a band is one submission. A moving camera's uploads are part of it:
+/// nothing else is submitted and waited for.
 #[test]
 fn a_frame_from_elsewhere_is_one_submission() {
-    // Their hosts make something of the camera, of time, or of a structure of their own; 02 makes nothing.
+    // Their hosts compute something from the camera or the time, or have a structure of their own; 02 has
+    // nothing like that.
     frames_are_submissions(&[
         "02_basic",
         "12_infinite_plane",
@@ -275,7 +277,7 @@ fn frames_are_submissions<Name: AsRef<str>>(samples: &[Name]) {
     let moving =
         ["--compare", "camera eye=-5.6,2.7,8.2|-5.5,2.7,8.2", "--size", "24x1", "--frames"];
     let mut samples: Vec<_> = samples.iter().map(|name| (name.as_ref(), vec![])).collect();
-    // There the host computes a number for each sphere, by where the eye is.
+    // Its host computes a number for each sphere from the position of the eye.
     samples.push(("42_distant_spheres", vec!["--set", "sphere rung=host c"]));
     for (sample, settings) in samples {
         let submissions = |frames: &str| {
@@ -289,7 +291,7 @@ fn frames_are_submissions<Name: AsRef<str>>(samples: &[Name]) {
     }
 }
 
-/// 01 has vertices, instances and a table that the host writes, and the picture that it reads.
+/// 01 has vertices, instances and a table written by the host, and a picture read by the host.
 #[test]
 fn the_foundation_s_uploads_lie_in_the_device_where_the_host_can_write_there() {
     let [_, device, host, both] = counted("", "01_foundation", &[]);
@@ -310,15 +312,15 @@ fn a_list_of_hits_that_has_no_room_is_refused_with_what_would_fit() {
         assert_eq!(code, 1);
         assert!(words.iter().all(|word| line.contains(word)), "{line}");
     };
-    // By maxBufferSize and maxMemoryAllocationSize, 2^30 bytes.
+    // Limited by maxBufferSize and maxMemoryAllocationSize, 2^30 bytes.
     let words =
         ["a list of all hits takes 384 bytes a pixel", "room for 2796202 pixels, not for 3000000"];
     refused("", "3000x1000", words);
-    // By the memory that there is.
+    // Limited by the available memory.
     refused("heap=268435456", "1000x700", [words[0], "room for 699050 pixels, not for 700000"]);
 }
 
-/// Of textures in a table that is written before it is bound, a device may take no more than 16.
+/// In a table that is written before it is bound, a device may support no more than 16 textures.
 #[test]
 fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
     const TEXTURES: usize = 40;
@@ -376,7 +378,7 @@ fn violate_the_narrow_limits() {
     let device = &gpu.device;
     let stage = vk::ShaderStageFlags::RAYGEN_KHR;
     let said = |id: &str| gpu.validation().all().iter().any(|message| message.contains(id));
-    // SAFETY: the device below offers all of this, and what is made is destroyed.
+    // SAFETY: the device below supports all of this, and every object is destroyed.
     unsafe {
         let ranges = [vk::PushConstantRange::default().stage_flags(stage).size(132)];
         let info = vk::PipelineLayoutCreateInfo::default().push_constant_ranges(&ranges);
@@ -416,13 +418,13 @@ fn ask_for_more_than_is_promised() {
     assert!(more.ends_with(lacks), "{more}");
 }
 
-/// Maps the device's memory, as a program does that leaves out the copy by way of the host's memory.
+/// Maps device memory, like a program that skips the copy through host memory.
 fn map_memory_of_the_device() -> (Result<(), vk::Result>, Vec<String>) {
     let requirements = Requirements::ray_tracing();
     let options = GpuOptions { requirements, validate: true, ..GpuOptions::default() };
     let gpu = Gpu::new(&options).expect("a device");
-    // As one asks for it who has met the software driver alone: the first type that is the device's own.
-    // SAFETY: the device is alive, and what is allocated is freed.
+    // As requested by a programmer who only knows the software driver: the first type in device memory.
+    // SAFETY: the device is alive, and the allocation is freed.
     let mapped = unsafe {
         let types = gpu.vulkan.instance.get_physical_device_memory_properties(gpu.physical_device);
         let own = vk::MemoryPropertyFlags::DEVICE_LOCAL;
@@ -438,7 +440,7 @@ fn map_memory_of_the_device() -> (Result<(), vk::Result>, Vec<String>) {
     (mapped, gpu.validation().all())
 }
 
-/// The software driver forgives it, as all of its memory is the host's.
+/// The software driver allows it, because all of its memory is host memory.
 #[test]
 fn memory_of_the_device_is_not_the_host_s() {
     if run::device::is_software() {
@@ -456,7 +458,7 @@ fn map_what_is_the_device_s_alone() {
     assert!(said.len() == 1 && said[0].contains(id), "{said:?}");
 }
 
-/// Shaders promise alignments of addresses, and builds ask for some, that a driver gives no buffer by itself.
+/// Shaders promise alignments of addresses, and builds need some, that a driver does not give every buffer.
 #[test]
 fn addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it() {
     in_child("narrowest::address_buffers_of_odd_sizes", "loose-buffers");

@@ -1,5 +1,5 @@
-//! A device without ray tracing, as a layer shows it: compute runs there in silence, and every chapter that traces
-//! rays is refused by the name of what it lacks.
+//! A device without ray tracing, simulated by a layer: compute runs there without messages, and every chapter
+//! that traces rays is refused with the name of the missing feature.
 
 use common::gpu::{
     Band, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Image, Requirements,
@@ -12,7 +12,7 @@ use ash::{khr, vk};
 
 use super::narrowest::{quiet, runs};
 
-/// Faults for the layer: all of ray tracing is hidden, and the device is one of those that Macs have.
+/// Faults for the layer: all of ray tracing is hidden, and the device is a portability device, as on Macs.
 const FAULTS: &str = "no-ray-tracing,portability";
 
 /// The chapters that need no ray tracing.
@@ -95,7 +95,7 @@ fn compute_a_picture() {
         timer.start(cmd);
         written.update(cmd, &[1u32, 2, 3])?;
         written.clear(cmd);
-        // Twice, by each pair of barriers that a chapter without builds has a use for.
+        // Twice, for each pair of barriers needed by a chapter without builds.
         for _ in 0..2 {
             pipeline.bind(
                 cmd,
@@ -145,7 +145,7 @@ fn open_it_otherwise() {
         let instance = &gpu.vulkan.instance;
         let mut found = device::candidates(instance, &Requirements::compute()).unwrap().remove(0);
         change(&mut found.extensions);
-        // SAFETY: nothing was made of it.
+        // SAFETY: no object was created from it.
         device::create(instance, &found).map(|device| unsafe { device.destroy_device(None) })
     };
     opened(&|names| names.retain(|name| *name != subset)).expect("only validation minds");

@@ -11,9 +11,9 @@ use ash::{khr, vk};
 pub struct Instance {
     /// Vulkan's own.
     pub core: ash::Instance,
-    /// `VK_KHR_surface`; each function panics where the extension is not enabled.
+    /// `VK_KHR_surface`; its functions panic if the extension is not enabled.
     pub surface: khr::surface::InstanceFn,
-    /// The function that finds those that the layer leaves alone.
+    /// The function that looks up those the layer does not replace.
     pub get_proc_addr: vk::PFN_vkGetInstanceProcAddr,
 }
 
@@ -21,13 +21,13 @@ pub struct Instance {
 pub struct Device {
     /// Vulkan's own.
     pub core: ash::Device,
-    /// `VK_KHR_swapchain`; each function panics where the extension is not enabled.
+    /// `VK_KHR_swapchain`; its functions panic if the extension is not enabled.
     pub swapchain: khr::swapchain::DeviceFn,
     /// `VK_KHR_acceleration_structure`, in the same way.
     pub structures: khr::acceleration_structure::DeviceFn,
     /// `VK_KHR_ray_tracing_pipeline`, in the same way.
     pub rays: khr::ray_tracing_pipeline::DeviceFn,
-    /// The function that finds those that the layer leaves alone.
+    /// The function that looks up those the layer does not replace.
     pub get_proc_addr: vk::PFN_vkGetDeviceProcAddr,
     /// The device it was made from.
     pub physical: vk::PhysicalDevice,
@@ -36,8 +36,8 @@ pub struct Device {
 static INSTANCES: Mutex<BTreeMap<usize, Arc<Instance>>> = Mutex::new(BTreeMap::new());
 static DEVICES: Mutex<BTreeMap<usize, Arc<Device>>> = Mutex::new(BTreeMap::new());
 
-/// The key that an instance has in common with its physical devices, and a device with its queues and command
-/// buffers: the address of the loader's own table, which their handles begin with.
+/// The key shared by an instance and its physical devices, or by a device and its queues and command buffers:
+/// the address of the loader's dispatch table, which is the first word of their objects.
 fn key(handle: impl Handle) -> usize {
     // SAFETY: each of these handles points to an object that begins with that address.
     unsafe { *(handle.as_raw() as *const usize) }
@@ -55,7 +55,7 @@ pub fn device(handle: impl Handle) -> Arc<Device> {
     devices.get(&key(handle)).expect("the device was made through this layer").clone()
 }
 
-/// Keeps the functions below a new instance.
+/// Stores the functions below a new instance.
 pub fn add_instance(handle: vk::Instance, get_proc_addr: vk::PFN_vkGetInstanceProcAddr) {
     let load = |name: &CStr| {
         // SAFETY: the instance is alive, and the name ends in a zero byte.
@@ -70,7 +70,7 @@ pub fn add_instance(handle: vk::Instance, get_proc_addr: vk::PFN_vkGetInstancePr
     INSTANCES.lock().unwrap_or_else(PoisonError::into_inner).insert(key(handle), Arc::new(below));
 }
 
-/// Keeps the functions below a new device.
+/// Stores the functions below a new device.
 pub fn add_device(
     physical: vk::PhysicalDevice,
     handle: vk::Device,
@@ -92,22 +92,22 @@ pub fn add_device(
     DEVICES.lock().unwrap_or_else(PoisonError::into_inner).insert(key(handle), Arc::new(below));
 }
 
-/// Forgets an instance that is about to be destroyed, and returns what lies below it.
+/// Removes an instance before its destruction, and returns the functions below it.
 pub fn remove_instance(handle: vk::Instance) -> Option<Arc<Instance>> {
     INSTANCES.lock().unwrap_or_else(PoisonError::into_inner).remove(&key(handle))
 }
 
-/// Forgets a device that is about to be destroyed, and returns what lies below it.
+/// Removes a device before its destruction, and returns the functions below it.
 pub fn remove_device(handle: vk::Device) -> Option<Arc<Device>> {
     DEVICES.lock().unwrap_or_else(PoisonError::into_inner).remove(&key(handle))
 }
 
-/// A function's address, null for none.
+/// A function's address, or null.
 pub fn address(function: vk::PFN_vkVoidFunction) -> *const c_void {
     function.map_or(std::ptr::null(), |function| function as *const c_void)
 }
 
-/// A layer's `vkCreateInstance` that changes nothing and keeps what lies below.
+/// A layer's `vkCreateInstance` that changes nothing and stores the functions below.
 ///
 /// # Safety
 /// As Vulkan's, here and below.
@@ -116,7 +116,7 @@ pub unsafe extern "system" fn create_instance(
     allocator: *const vk::AllocationCallbacks,
     instance: *mut vk::Instance,
 ) -> vk::Result {
-    // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
+    // SAFETY: the loader calls this once per instance, and the function below has that name.
     unsafe {
         match crate::create_instance(info, allocator, instance, |_, below| below) {
             Ok(get_proc_addr) => {

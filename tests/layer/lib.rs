@@ -1,4 +1,4 @@
-//! The protocol of the loader and a Vulkan layer:
+//! The interface between the loader and a Vulkan layer:
 //! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderLayerInterface.md>.
 
 pub mod below;
@@ -19,7 +19,8 @@ pub struct Negotiation {
 }
 
 impl Negotiation {
-    /// Settles on version 2 of the interface, the present one, and on where functions are found.
+    /// Negotiates version 2 of the interface, the current one, and exchanges the functions that look up
+    /// others.
     pub fn settle(
         &mut self,
         get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
@@ -33,7 +34,7 @@ impl Negotiation {
     }
 }
 
-/// `VkLayerInstanceCreateInfo` and `VkLayerDeviceCreateInfo`, as far as a layer reads them.
+/// The part of `VkLayerInstanceCreateInfo` and `VkLayerDeviceCreateInfo` that a layer reads.
 #[repr(C)]
 struct Link<T> {
     kind: vk::StructureType,
@@ -61,14 +62,14 @@ struct BelowDevice {
     get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
 }
 
-/// Makes an instance by the `vkCreateInstance` below, which `over` may put another in the place of; returns
-/// where the functions below the instance are found.
+/// Creates an instance with the `vkCreateInstance` below, which `over` may replace; returns the function that
+/// looks up those below the instance.
 ///
 /// # Errors
-/// If there is nothing below, or as the function has it.
+/// If there is nothing below, or the function below fails.
 ///
 /// # Safety
-/// The arguments are the loader's own, and what `over` returns is a function of that name.
+/// The arguments are the loader's own, and `over` returns a function of that name.
 pub unsafe fn create_instance(
     info: *const vk::InstanceCreateInfo,
     allocator: *const vk::AllocationCallbacks,
@@ -87,10 +88,10 @@ pub unsafe fn create_instance(
     }
 }
 
-/// The lookup of functions below an instance that is being made; the next layer finds its own.
+/// The lookup of functions below an instance that is being created; the next layer looks up its own.
 ///
 /// # Safety
-/// `info` comes from the loader, once for each instance.
+/// `info` comes from the loader, once per instance.
 unsafe fn below_instance(
     info: *const vk::InstanceCreateInfo,
 ) -> Option<vk::PFN_vkGetInstanceProcAddr> {
@@ -103,7 +104,7 @@ unsafe fn below_instance(
     }
 }
 
-/// The same for a device.
+/// As [`below_instance`], for a device.
 ///
 /// # Safety
 /// As for [`below_instance`].
@@ -120,11 +121,11 @@ pub unsafe fn below_device(
 }
 
 /// # Safety
-/// `chain` is the loader's, and `kind` goes with `T`.
+/// `chain` is the loader's, and `kind` matches `T`.
 unsafe fn link<T>(chain: *const c_void, kind: vk::StructureType) -> Option<&'static mut Link<T>> {
     let mut at = chain.cast_mut().cast::<Link<T>>();
-    // SAFETY: every structure of a chain begins with its kind and a pointer to the next; only the loader's
-    // has a function.
+    // SAFETY: every structure of a chain begins with its type and a pointer to the next; only the loader's
+    // contains a function.
     unsafe {
         while let Some(found) = at.as_mut() {
             if found.kind == kind && found.function == LINK {
@@ -136,20 +137,20 @@ unsafe fn link<T>(chain: *const c_void, kind: vk::StructureType) -> Option<&'sta
     None
 }
 
-/// A function's name; empty if it is no text.
+/// A function's name; empty if it is not valid text.
 ///
 /// # Safety
-/// `name` ends in a zero byte and lives as long as the result is used.
+/// `name` ends in a zero byte and outlives the result.
 pub unsafe fn text<'a>(name: *const c_char) -> &'a str {
     // SAFETY: the caller's promise.
     unsafe { CStr::from_ptr(name) }.to_str().unwrap_or_default()
 }
 
-/// A function as Vulkan hands it out.
+/// A function in Vulkan's form.
 ///
 /// # Safety
 /// The address is that of a function with Vulkan's calling convention.
 pub unsafe fn function(address: *const c_void) -> vk::PFN_vkVoidFunction {
-    // SAFETY: the caller's promise; a null pointer is no function.
+    // SAFETY: the caller's promise; a null pointer becomes `None`.
     unsafe { std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(address) }
 }

@@ -1,4 +1,4 @@
-//! The atlas: what must hold of any device, and that it sees an error that is planted.
+//! The atlas: its values on any device, and its detection of planted errors.
 
 mod page;
 
@@ -9,10 +9,10 @@ use serde_json::{Map, Value, json};
 
 use crate::laboratory;
 
-/// Rays of each case.
+/// Rays per case.
 const RAYS: &str = "200";
 
-/// Draws an atlas under validation, with shaders of our own if there is a folder of them.
+/// Renders an atlas under validation, with the shaders of a folder if there is one.
 fn atlas(shaders: Option<&Path>, arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");
@@ -45,12 +45,12 @@ fn case<'a>(atlas: &'a Value, name: &str, case: &str) -> &'a Map<String, Value> 
     found.unwrap_or_else(|| panic!("no case {case}"))["found"].as_object().expect("numbers")
 }
 
-/// A number of a case; NaN where there is none.
+/// A number of a case; NaN if it is missing.
 fn number(found: &Map<String, Value>, name: &str) -> f64 {
     found.get(name).unwrap_or_else(|| panic!("no {name}: {found:?}")).as_f64().unwrap_or(f64::NAN)
 }
 
-/// Nothing here asks more of a device than Vulkan promises, or than chapters rely on.
+/// These bounds are no stricter than Vulkan's promises, or than the chapters' assumptions.
 #[test]
 fn every_row_holds_what_any_device_must() {
     let atlas = atlas(None, &[]);
@@ -106,8 +106,8 @@ fn every_row_holds_what_any_device_must() {
     }
 }
 
-/// An intersection shader of two-floats stands in for a device. It is nearly exact; with a line of it changed it
-/// is not, and the row that is about it says so.
+/// An intersection shader in two-floats stands in for a device. It is nearly exact; with one line changed it
+/// is not, and the row about that line reports it.
 #[test]
 fn a_planted_error_is_seen() {
     let software = ["--traversal", "software"];
@@ -128,7 +128,7 @@ fn a_planted_error_is_seen() {
     let file = "common/triangle.glsl";
     let off = "t = uintBitsToFloat(floatBitsToUint(exact.x) + 2);";
     let off = atlas(Some(shaders_with(file, "t = exact.x;", off).path()), &software);
-    // Below a power of two an ULP is half of what it is above.
+    // Below a power of two, a ULP is half as large as above it.
     let [[least, most], [_, largest]] = [t(&off, "t p50"), t(&off, "t max")];
     assert!(least >= 1.75 && most <= 2.25 && largest <= 4.5, "{least} {most} {largest}");
     seams.iter().for_each(|name| assert_eq!(lost(&off, name), 0.0, "{name}"));
@@ -143,7 +143,8 @@ fn a_planted_error_is_seen() {
     assert!(t(&broken, "t max")[1] <= 0.5);
 }
 
-/// The worst arithmetic offers more than it must, and the atlas counts it.
+/// The worst arithmetic calls the intersection shader more often than necessary, and the atlas counts the
+/// calls.
 #[test]
 fn the_worst_arithmetic_is_seen() {
     if !run::has_worst_arithmetic() {
@@ -156,7 +157,7 @@ fn the_worst_arithmetic_is_seen() {
     };
     let [called, again, most] = of("without the flag");
     assert!(again >= called && most >= 2.0, "{called} {again} {most}");
-    // This driver itself calls once; another may call as often as it likes.
+    // This driver calls it once; another may call it as often as it likes.
     if run::device::is_software() {
         assert!(again == called && most == 2.0, "{called} {again} {most}");
     }

@@ -1,10 +1,10 @@
-//! Random families, held to what each rung promises on its home ground.
+//! Random families, compared with each rung's promise for its home family.
 
 use serde_json::Value;
 
 use crate::{compiled, laboratory, tables};
 
-/// A measurement of one rung on one family, one way.
+/// A measurement of one rung on one family, direct or traced.
 pub struct Row(pub Value);
 
 impl Row {
@@ -22,7 +22,7 @@ fn measure(arguments: &[&str]) -> Vec<Value> {
     report["rungs"].as_array().unwrap().clone()
 }
 
-/// All that a run without times has to say.
+/// The report of a run without timing.
 pub fn report(arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");
@@ -36,7 +36,7 @@ pub fn report(arguments: &[&str]) -> Value {
     report
 }
 
-/// The row of a rung on a family; `None` if the device does not have the rung.
+/// The row of a rung on a family; `None` if the device lacks the rung.
 fn row(rungs: &[Value], rung: &str, family: &str, way: &str) -> Option<Row> {
     let found = rungs.iter().find(|row| row["rung"] == rung).unwrap_or_else(|| panic!("no {rung}"));
     if found.get("unavailable").is_some() {
@@ -47,7 +47,7 @@ fn row(rungs: &[Value], rung: &str, family: &str, way: &str) -> Option<Row> {
     Some(Row(row.unwrap_or_else(|| panic!("no {rung} on {family}, {way}")).clone()))
 }
 
-/// 99 of 100 rays of a family are at most so many ULP off, and none is a false hit or miss, except past
+/// Of the rays of a family, 99 % have at most this error in ULP, and none is a false hit or miss, except for
 /// [`EDGES`].
 const P99: [(&str, &str, f64); 27] = [
     ("S0", "sphere from 10 radii", 70.0),
@@ -79,15 +79,16 @@ const P99: [(&str, &str, f64); 27] = [
     ("H3", "hills at 60°", 8.0),
 ];
 
-/// Of ten thousand rays at a box from 1e4 away, so many may pass an edge within half an ULP of t, where the
+/// Of ten thousand rays at a box from 1e4 away, this many may pass an edge within half a ULP of t, where the
 /// slabs' distances round to a tie.
 const EDGES: (&str, f64) = ("box from 1e4", 2.0);
 
-/// Another device rounds otherwise: of ten thousand rays so many may graze a shape so closely that rounding sends
-/// them to the other side. An NVIDIA H200 has one, of C1 on the capsule from 1e4. Only top rungs promise none.
+/// Another device rounds differently: of ten thousand rays, this many may graze a shape so closely that
+/// rounding moves them to the other side. An NVIDIA H200 has one, for C1 on the capsule from 1e4. Only top
+/// rungs promise none.
 const GRAZING: f64 = 1.0;
 
-/// The rungs whose every answer is right to one ULP, whatever the family.
+/// The rungs that are right to one ULP in every family.
 const TOPS: [&str; 10] = ["S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", "I2"];
 
 #[test]
@@ -124,7 +125,7 @@ fn every_rung_keeps_its_promise(report: &Value) {
                 assert!(row.number("max") <= 1.0, "{place}: {}", row.number("max"));
                 assert_eq!(row.wrong() + row.number("never_offered"), 0.0, "{place}");
             }
-            // A leak is a miss or a hit on the far side, and none is allowed: not even one in a hundred.
+            // A leak is a miss or a hit on the far side. None is allowed, not even one in a hundred.
             if label == "T2" {
                 assert!(row.number("max") <= 16.0, "{place}: {}", row.number("max"));
                 assert_eq!(row.wrong() + row.number("never_offered"), 0.0, "{place}");
@@ -137,7 +138,7 @@ fn every_rung_keeps_its_promise(report: &Value) {
     simple_rungs_fail_as_the_page_says(rungs);
 }
 
-/// Checks that rungs fail where they are known to: or the families are not what they are called.
+/// Checks that simple rungs fail where they should; otherwise the families are too easy.
 fn simple_rungs_fail_as_the_page_says(rungs: &[Value]) {
     let share = |rung, family| {
         let row = row(rungs, rung, family, "direct").expect("a plain rung is everywhere");

@@ -1,4 +1,4 @@
-//! Estimates of a GPU's compiler for every rung.
+//! A GPU compiler's estimates for every rung.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use crate::tables;
 
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
-/// Holds that each rung has figures of each family, and that they say what the page says of them.
+/// Checks that each rung has estimates for each family, and that they agree with the page.
 pub fn check(report: &Value) {
     if let Some(why) = report["no_compiler"].as_str() {
         assert!(run::NO_COMPILER.iter().any(|words| why.contains(words)), "{why}");
@@ -15,7 +15,7 @@ pub fn check(report: &Value) {
     let rungs = report["rungs"].as_array().unwrap();
     for rung in rungs {
         let told = rung["compiled_for"].as_array().unwrap();
-        // The device's own triangles are no program.
+        // The device's own triangles need no program.
         if rung["rung"] == "T0" || rung.get("unavailable").is_some() {
             assert!(told.is_empty(), "{rung}");
             continue;
@@ -42,7 +42,7 @@ pub fn check(report: &Value) {
             assert!(dear > 4.0 * cheap, "{family}: {dear} is not far above {cheap}");
         }
     }
-    // So the page says of the stable rungs, by Mesa 25; 26.2.6 puts two of them at 1.52.
+    // The page's value for the stable rungs, from Mesa 25; 26.2.6 puts two of them at 1.52.
     let most = if report["compiler"].as_str().unwrap().contains("Mesa 25.") { 1.5 } else { 1.53 };
     for stable in ["S2 stable", "P2 compensated", "I1 host inverse", "O5 bound"] {
         let rung = rungs.iter().find(|rung| stable.starts_with(rung["rung"].as_str().unwrap()));

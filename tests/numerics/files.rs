@@ -1,4 +1,4 @@
-//! Files of cases: other ones work as well, wrong ones are refused in a line.
+//! Files of cases: others work as well, and invalid ones are refused with one line.
 
 use serde_json::{Value, json};
 
@@ -48,7 +48,7 @@ fn another_file_of_the_schema_works() {
     assert_eq!((&report["cases"], &report["skipped"]), (&3.into(), &0.into()));
     let answers = report["answers"].as_array().unwrap();
     assert!(answers.iter().all(|answer| answer["verdict"] == "right"), "{answers:?}");
-    // Seven ways for the sphere, five for the box, six for the plane, each direct and traced.
+    // Seven rungs for the sphere, five for the box, six for the plane, each direct and traced.
     assert_eq!(answers.len(), 2 * (7 + 5 + 6));
 }
 
@@ -91,8 +91,8 @@ fn sum(n: u32, shape: Value, mean: &str) -> Value {
         "shape": shape, "expect": {"mean": mean}, "tol": {"mean_rel": 1.2e-7}})
 }
 
-/// Of 2^24 + 5 samples the last shines, as a third does; a count that were a float would leave it out. A
-/// sum of floats stands still from 2^24 on.
+/// Of 2^24 + 5 samples the last one is bright, and the third as well; a float counter would miss the last. A
+/// sum of floats stops growing at 2^24.
 #[test]
 fn sums_may_be_longer_than_a_float_can_count() {
     let lights = json!({"pattern": "firefly", "value": 0, "spike": 1, "every": 5_592_407});
@@ -235,11 +235,11 @@ fn a_file_takes_no_more_memory_than_its_size_allows() {
         let line = String::from_utf8_lossy(&spent.output.stderr).into_owned();
         (spent.output.status.success(), line, spent.memory)
     };
-    // The first run may compile what later ones find in the driver's cache.
+    // The first run may compile shaders that later ones find in the driver's cache.
     memory(&text);
     let (_, _, least) = memory(&text);
-    // What nobody reads is not kept. The numbers are written here as text: as values they would
-    // make this process larger than the one that it measures.
+    // Unused fields are not stored. The numbers are written as text here: as values they would make this
+    // process larger than the one it measures.
     let many = format!("{{\"conventions\": [{}0], ", "0,".repeat(4_000_000));
     let (success, line, most) = memory(&text.replacen('{', &many, 1));
     let more = most.saturating_sub(least);

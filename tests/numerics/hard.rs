@@ -9,7 +9,7 @@ use crate::cases;
 use crate::tables::{Table, ladders, text};
 
 const FILE: &str = "tests/data/hard_cases.json";
-/// The laboratory's report of all hard cases.
+/// The report of chapter 24 for all hard cases.
 static REPORT: LazyLock<Value> = LazyLock::new(|| cases(FILE));
 
 #[test]
@@ -18,7 +18,7 @@ fn every_top_rung_is_right_on_every_hard_case() {
     hold(report);
     assert_eq!((&report["cases"], &report["skipped"]), (&114.into(), &0.into()));
     let rungs = report["rungs"].as_array().unwrap();
-    // 43 rungs: the device's triangles have no direct way, the sums no traced one.
+    // 43 rungs: the device's triangles cannot be called directly, and the sums cannot be traced.
     assert_eq!(rungs.len(), 2 * 43 - 1 - 4);
     let mut tops = 0;
     for row in rungs {
@@ -29,14 +29,14 @@ fn every_top_rung_is_right_on_every_hard_case() {
         let verdicts = ["right", "inexact", "false_hits", "false_misses", "never_offered"];
         let told: u64 = verdicts.iter().map(|key| number(key)).sum();
         assert_eq!(told + number("not_finite"), number("run"), "{row}");
-        // No rung, however simple, lets infinity or NaN out.
+        // No rung, however simple, returns infinity or NaN.
         assert_eq!(number("not_finite"), 0, "{row}");
         if row["top"] == true {
             assert_eq!(number("right"), number("cases"), "{row}");
             tops += 1;
         }
     }
-    // The simplest rungs fail: or the cases are not hard.
+    // The simplest rungs must fail; otherwise the cases are not hard.
     let wrong = |rung: &str| -> u64 {
         let rows = rungs.iter().filter(|row| row["rung"] == rung && row["way"] == "direct");
         rows.map(|row| row["run"].as_u64().unwrap() - row["right"].as_u64().unwrap()).sum()
@@ -44,14 +44,14 @@ fn every_top_rung_is_right_on_every_hard_case() {
     for rung in ["S0", "B0", "P0", "C0", "I0", "H0", "O0", "A0"] {
         assert!(wrong(rung) > 0, "{rung} fails nothing");
     }
-    // Direct and traced: S4, S5, B3, B4, P3, P4, T3, C2, C3, I2, H3 and O5, and A3 one way. Of these every
-    // device has H3 and A3.
+    // Direct and traced: S4, S5, B3, B4, P3, P4, T3, C2, C3, I2, H3 and O5; A3 only directly. Every device
+    // has at least H3 and A3.
     let all_are_there = rungs.iter().all(|row| row.get("unavailable").is_none());
     let least = if all_are_there { 2 * 12 + 1 } else { 3 };
     assert!(tops >= least, "only {tops} top rungs, direct and traced");
 }
 
-/// Holds what the pages say of the cases.
+/// Compares with the pages' values for the cases.
 fn hold(report: &Value) {
     expected::hold_exact("README/hard_cases", json!({ "cases": report["cases"] }));
     let (mut table, mut rungs) = (Table::new(), 0);
@@ -68,12 +68,14 @@ fn hold(report: &Value) {
     expected::hold("24_accuracy/traced", traced(report).into());
 }
 
-/// Tests whether a row tells of its rung, which is called directly; the device's own triangles can only be traced.
+/// Returns whether a row is for its rung called directly, or for the device's own triangles, which can only
+/// be traced.
 pub fn is_own(row: &Value) -> bool {
     row["way"] == if row["rung"] == "T0" { "traced" } else { "direct" }
 }
 
-/// Number of answers both ways, of those that differ, and of cases that are never offered.
+/// The number of answers direct and traced, of those that differ, and of cases never passed to the
+/// intersection shader.
 fn traced(report: &Value) -> Table {
     let answers = report["answers"].as_array().expect("answers");
     let of = |way: &'static str| answers.iter().filter(move |answer| answer["way"] == way);
@@ -90,7 +92,7 @@ fn traced(report: &Value) -> Table {
     counts.into_iter().map(|(name, count)| (name.to_owned(), count.into())).collect()
 }
 
-/// The case that the page follows by hand: an eye 1 above a sphere of a million.
+/// The case the page computes by hand: an eye 1 above a sphere of radius a million.
 #[test]
 fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
     let text = std::fs::read_to_string(run::root().join(FILE)).expect("the cases");

@@ -1,5 +1,5 @@
 //! Every rung of every ladder on the device: hard cases with known answers, and random rays by the ten
-//! thousand, held to the bars that 24_accuracy states.
+//! thousand, compared with the bounds stated by 24_accuracy.
 
 mod atlas;
 mod bars;
@@ -17,17 +17,17 @@ use serde_json::Value;
 
 const NAME: &str = "24_accuracy";
 
-/// Runs the laboratory under validation.
+/// Runs chapter 24 under validation.
 fn laboratory(arguments: &[&str]) -> Output {
     unwatched(&[&["--validate"], arguments].concat())
 }
 
-/// Runs it without validation, which would be timed as well.
+/// Runs it without validation, which would distort the times.
 fn unwatched(arguments: &[&str]) -> Output {
     run::command(NAME).arg("--headless").args(arguments).output().expect("it starts")
 }
 
-/// The report of a file of cases; whatever is wrong with the run is a failed test.
+/// The report for a file of cases; any fault of the run fails the test.
 fn cases(path: &str) -> Value {
     let output = laboratory(&["--cases", path, "--report", "-"]);
     let errors = String::from_utf8_lossy(&output.stderr);

@@ -1,4 +1,4 @@
-//! The tables of the pages, from a report of the laboratory. A row's figures are called by its head on the
+//! The tables of the pages, from a report of chapter 24. A row's figures are named after its head on the
 //! page, with hyphens: `S0-textbook.home`.
 
 use run::expected;
@@ -29,7 +29,7 @@ fn rows(rung: &Value) -> impl Iterator<Item = Row> {
     rung["errors"].as_array().into_iter().flatten().map(|row| Row(row.clone()))
 }
 
-/// Holds all errors that the pages print.
+/// Compares all errors that the pages print.
 pub fn hold_errors(report: &Value) {
     let mut rungs = Table::new();
     let is_of_page = is_of_page(report);
@@ -58,8 +58,8 @@ pub fn hold_errors(report: &Value) {
     expected::hold("24_accuracy/forms", forms.into());
 }
 
-/// A rung at home, and on the family that is hardest for it: where most rays are wrong, then where p99 is
-/// largest. There is no error where no ray hits.
+/// A rung on its home family, and on the hardest family for it: the one with the most wrong rays, then the
+/// one with the largest p99. There is no error if no ray hits.
 fn home_and_hardest(rung: &Value, is_of_page: bool) -> Table {
     let asked: Vec<Row> = rows(rung).filter(|row| is_own(rung, row)).collect();
     let part = |row: &Row| row.wrong() / row.number("rays");
@@ -86,13 +86,14 @@ fn home_and_hardest(rung: &Value, is_of_page: bool) -> Table {
     table
 }
 
-/// Tests whether a row tells of its rung, which is called directly; the device's own triangles can only be traced.
+/// Returns whether a row is for its rung called directly, or for the device's own triangles, which can only
+/// be traced.
 fn is_own(rung: &Value, row: &Row) -> bool {
     let way = if text(rung, "rung") == "T0" { "traced" } else { "direct" };
     row.0["way"] == way
 }
 
-/// Factor by which the p99 of the textbook's sphere is smaller on a planet, if c comes from the host.
+/// The factor by which computing c on the host reduces the p99 of the textbook's sphere on a planet.
 fn gain(report: &Value) -> f64 {
     let [textbook, host] = ["S0", "S0h"].map(|label| {
         let mut rungs = report["rungs"].as_array().expect("rungs").iter();
@@ -104,15 +105,15 @@ fn gain(report: &Value) -> f64 {
     textbook / host
 }
 
-/// Tests whether the page's figures are of this device.
+/// Returns whether the page's figures come from this device.
 fn is_of_page(report: &Value) -> bool {
     expected::stored("24_accuracy/rungs")["device"] == report["device"]
 }
 
-/// The tables of both pages name a rung's hardest family, or none where it has half an ULP everywhere.
+/// Checks that both pages name a rung's hardest family, or none if it has half a ULP everywhere.
 fn page_names(rung: &Value, family: &str) {
     let start = format!("| {} {} |", text(rung, "rung"), text(rung, "name"));
-    // Of a ladder the chapter has a part, and its origins have a table of all families.
+    // The chapter shows a part of a ladder, and its origins have a table of all families.
     let is_of_origins = text(rung, "primitive") == "secondary origin";
     for (name, has_all) in [("docs/measured.md", !is_of_origins), ("docs/24_accuracy.md", false)] {
         let page = std::fs::read_to_string(run::root().join(name)).expect("a page");
@@ -124,7 +125,7 @@ fn page_names(rung: &Value, family: &str) {
     }
 }
 
-/// Every family by every rung; traced rays where they are not as direct ones.
+/// Every family for every rung; traced rays where they differ from direct ones.
 fn errors(ladder: &[Value]) -> Table {
     let mut families = Vec::new();
     for row in ladder.iter().flat_map(rows) {
@@ -151,7 +152,7 @@ fn errors(ladder: &[Value]) -> Table {
     table
 }
 
-/// Number of rays that met their sphere again, or passed the plane in the gap.
+/// The number of rays that hit their sphere again, or missed the plane in the gap.
 fn departures(ladder: &[Value]) -> Table {
     let mut table = Table::new();
     for (number, family) in rows(&ladder[0]).enumerate() {
@@ -165,7 +166,7 @@ fn departures(ladder: &[Value]) -> Table {
     table
 }
 
-/// Holds a GPU compiler's estimates.
+/// Compares a GPU compiler's estimates.
 pub fn hold_estimates(report: &Value) {
     let compiler = text(report, "compiler");
     let mut table = Table::new();
@@ -186,7 +187,7 @@ pub fn hold_estimates(report: &Value) {
     expected::hold_compiled("24_accuracy/estimates", compiler, generations, table.into());
 }
 
-/// The least and the most that rungs of two floats, and of 64 bits, cost.
+/// The least and the largest cost of rungs in two-floats, and in 64 bits.
 pub fn span(table: &Table, key: &str) -> [(&'static str, [f64; 2]); 2] {
     ["two-float", "64-bits"].map(|kind| {
         let end = format!("-{kind}{key}");

@@ -1,4 +1,4 @@
-//! Costs of every rung: the times of the pages, and their plots.
+//! The costs of all rungs: the times on the pages, and their plots.
 
 use run::expected;
 use serde_json::{Value, json};
@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use crate::tables::{Table, head, ladders, span, text};
 use crate::unwatched;
 
-/// Clock and compiler agree within this factor.
+/// The clock and the compiler agree within this factor.
 const AGREE: f64 = 1.5;
 
-/// One run gives all times, so that they go together; where it is asked for figures, it renews the plots.
+/// One run measures all times, so that they can be compared; with `FIGURES`, it also draws the plots.
 #[test]
 #[ignore = "by hand: takes times, for minutes"]
 fn every_rung_is_timed() {
@@ -64,7 +64,7 @@ fn ratio(head: &str, ratio: &Value) -> [(String, Value); 3] {
     parts.map(|(key, part)| (format!("{head}.{key}"), ratio[part].clone()))
 }
 
-/// Each rung's time and estimate for navi31 over the least of its ladder, and how far the two are apart.
+/// Each rung's time and estimate for navi31 relative to the least of its ladder, and the ratio of the two.
 fn disagreement(report: &Value) -> Table {
     let (mut table, mut all, mut agree) = (Table::new(), 0, 0);
     for (_, ladder) in ladders(report) {

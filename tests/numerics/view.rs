@@ -1,4 +1,4 @@
-//! 24_accuracy: the window's picture, and what it says of each rung. All else is beside this.
+//! 24_accuracy: the window's picture, and its text for each rung. The other tests are in this folder.
 
 use common::app::Picture;
 use serde_json::Value;
@@ -24,8 +24,8 @@ fn wrong(found: &Value) -> u64 {
 fn the_picture_is_the_golden_one_and_repeats() {
     let [first, second] = [0, 1].map(|_| render(NAME, "240x150", &[]).picture);
     assert_eq!(bits(&first), bits(&second));
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden. The picture is one of the errors of a
-    // rung that has many, and each is the rounding of this driver's own compiler.
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden picture. It shows the errors of a rung
+    // that has many, and each depends on the rounding of this driver's own compiler.
     if expected::are_of_this_driver("24_accuracy/box_errors") {
         golden(NAME, &first, 0.002);
     }
@@ -39,7 +39,7 @@ const LADDERS: [Ladder; 5] = [
     ("plane", "POV form", "two-float"),
     ("box", "reciprocal", "two-float"),
     ("capsule", "textbook", "two-float"),
-    // Its simplest rung is off by much, but sees the right ellipsoid.
+    // Its simplest rung has large errors, but hits the right ellipsoid.
     ("instance", "matrix", "two-float"),
 ];
 

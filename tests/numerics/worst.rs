@@ -1,5 +1,5 @@
-//! The hard cases and the random families in the worst arithmetic that conforms: each top rung is held to
-//! the bar that it has on the driver itself.
+//! The hard cases and the random families in the worst conforming arithmetic: each top rung meets the same
+//! bound as on the driver itself.
 
 use run::expected;
 use serde_json::{Value, json};
@@ -9,18 +9,18 @@ use crate::hard::is_own;
 use crate::laboratory;
 use crate::tables::{Table, ladders, text};
 
-/// The rungs that are right because 64-bit floats are: Vulkan promises no more of them than of 32 bits.
+/// The rungs that rely on 64-bit floats: Vulkan only promises the precision of 32 bits for them.
 const NEED_64_BITS: [&str; 4] = ["S5", "B4", "P4", "C3"];
 
-/// The ladders that are tested with random rays, for their two-float rung or one like it. For such a rung of a
-/// capsule or an instance the driver's compiler takes more than ten seconds: these two have hard cases only.
+/// The ladders tested with random rays, for their two-float rung or a similar one. For that rung of a capsule
+/// or an instance, the driver's compiler needs more than ten seconds, so these two have only hard cases.
 const MEASURED: [&str; 7] =
     ["sphere", "box", "plane", "triangle", "heightfield", "secondary origin", "accumulation"];
 
-/// Rays of each family.
+/// Rays per family.
 const RAYS: &str = "300";
 
-/// The ways to compute, as the page's tables have them.
+/// The arithmetics, named as in the page's tables.
 const ARITHMETICS: [&str; 3] = ["driver", "worst", "worst-by-place"];
 
 fn cases(arithmetic: &str, more: &[&str]) -> Value {
@@ -54,7 +54,7 @@ fn every_hard_case_is_right(arithmetic: &str) {
         }
     }
     assert!(NEED_64_BITS.iter().all(|rung| !tops.contains(rung)));
-    // S4, B3, P3, T3, C2, I2, H3 and O5 both ways, A3 one.
+    // S4, B3, P3, T3, C2, I2, H3 and O5 direct and traced, A3 only direct.
     assert_eq!(tops.len(), 2 * 8 + 1, "{tops:?}");
 }
 
@@ -75,20 +75,21 @@ fn every_family_is_right(arithmetic: &str) {
             println!("{place}: p99 {p99:.3}, most {most:.3} ULP");
             assert_eq!(row.number("not_finite"), 0.0, "{place}");
             assert_eq!(row.number("false_misses") + row.number("never_offered"), 0.0, "{place}");
-            // H3 marches in 32 bits: it may hit hills that a ray nearly touches. Its t is held on its home ground.
+            // H3 marches in 32 bits, so it may hit hills that a ray nearly touches. Its t is only checked on
+            // its home family.
             let is_home = row.0["family"] == "hills at 60°";
             assert!(label == "H3" && !is_home || row.number("false_hits") == 0.0, "{place}");
             match label {
                 "H3" => assert!(!is_home || p99 <= 8.0, "{place}: {p99}"),
-                // A departure is right or wrong, and has no other error.
+                // A departure is right or wrong, and has no error in ULP.
                 "O5" => {}
                 _ => assert!(most <= 1.0, "{place}: {most}"),
             }
             families += 1;
         }
     }
-    // Both ways 7 of spheres, 4 of boxes, 4 of planes, 5 of triangles and 5 of heightfields; one way 9 of
-    // origins and 3 of sums.
+    // Direct and traced: 7 for spheres, 4 for boxes, 4 for planes, 5 for triangles and 5 for heightfields;
+    // only direct: 9 for origins and 3 for sums.
     assert_eq!(families, 2 * 25 + 9 + 3);
 }
 
@@ -115,7 +116,7 @@ fn so_it_does_where_copies_of_a_formula_disagree() {
     every_family_is_right("worst-by-place");
 }
 
-/// The page's table, and what it says of the smallest direction.
+/// The page's table, and its statement about the smallest direction.
 #[test]
 #[ignore = "by hand: asks every rung for a table of the page, for minutes"]
 fn the_hard_cases_of_every_rung_in_each_arithmetic() {
@@ -148,13 +149,13 @@ fn the_hard_cases_of_every_rung_in_each_arithmetic() {
     expected::hold("arithmetic/smallest", json!({ "off": off, "misses": misses }));
 }
 
-/// The page's table: of each ladder the largest p99 and the largest error of its families.
+/// The page's table: for each ladder, the largest p99 and the largest error of its families.
 #[test]
 #[ignore = "by hand: asks thousands of rays for a table of the page, for minutes"]
 fn random_rays_in_each_arithmetic() {
     let rows = |report: &Value| -> Vec<(String, Vec<Row>)> {
         let of = |(shape, ladder): (&str, &[Value])| {
-            // With 64 bits, a ladder has two tops on the driver.
+            // On the driver, a ladder with 64 bits has two top rungs.
             let [rung, ..] = ladder else { panic!("no rung of {shape}") };
             let rows = rung["errors"].as_array().unwrap().iter();
             (shape.to_owned(), rows.map(|row| Row(row.clone())).collect())
@@ -180,7 +181,7 @@ fn random_rays_in_each_arithmetic() {
                 .map(|key| rows.iter().map(|row| row.number(key)).sum::<f64>())
                 .iter()
                 .sum::<f64>();
-            // Of three sums there is no p99.
+            // Three sums have no p99.
             let keys: &[&str] = if shape == "accumulation" { &["max"] } else { &["p99", "max"] };
             for key in keys.iter().filter(|_| is_about_t) {
                 let most = rows.iter().map(|row| row.number(key)).fold(0.0, f64::max);

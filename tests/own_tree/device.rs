@@ -1,5 +1,5 @@
-//! Trees built on the device, read back: every triangle once, boxes exact, and the hierarchy a plain one of the same
-//! codes.
+//! Trees built on the device and read back: every triangle once, exact boxes, and the same hierarchy as a
+//! plain build from the same codes.
 
 mod builds;
 mod karras;
@@ -21,12 +21,12 @@ fn gpu(validate: bool, arithmetic: Arithmetic) -> Gpu {
     Gpu::new(&GpuOptions { requirements, validate, driver_shim, ..GpuOptions::default() }).unwrap()
 }
 
-/// Without validation, which would be timed.
+/// Without validation, which would distort the times.
 pub fn gpu_to_be_timed() -> Gpu {
     gpu(false, Arithmetic::Driver)
 }
 
-/// Triangles on the device, for a build.
+/// Triangles on the device, ready for a build.
 pub struct Uploaded {
     pub vertices: Buffer,
     pub triangles: Buffer,
@@ -40,7 +40,7 @@ impl Uploaded {
         Self::upload(gpu, &vertices, &shape.triangles, usage)
     }
 
-    /// For builds of all kinds.
+    /// With the usages for builds of all kinds.
     pub fn of_mesh(gpu: &Gpu, mesh: &Mesh) -> Self {
         Self::upload(gpu, &mesh.vertices, &mesh.triangles, input_usage())
     }
@@ -63,7 +63,7 @@ fn vertex(position: Vec3) -> Vertex {
     Vertex { position, normal: Vec3::Y, uv: Vec2::ZERO }
 }
 
-/// A tree that was built and read back.
+/// A tree built and read back.
 #[derive(Clone, Debug)]
 struct Built {
     nodes: Vec<Node>,
@@ -97,7 +97,7 @@ impl Built {
     }
 }
 
-/// The scenes and programs that the tests of one device share.
+/// The scenes and programs shared by the tests of one device.
 struct Bench {
     gpu: Gpu,
     builder: DeviceBuilder,
@@ -124,7 +124,7 @@ impl Bench {
         (tree, input)
     }
 
-    /// Builds a tree and holds all that is promised of it.
+    /// Builds a tree and checks all of its promises.
     fn checked(&self, shape: &Shape) -> Built {
         let built = Built::read(&self.build(shape).0);
         check(shape, &built);
@@ -137,13 +137,14 @@ impl Bench {
     }
 }
 
-/// The least box around a triangle, if it is finite.
+/// The bounding box of a triangle, if it is finite.
 fn box_of(corners: [Vec3; 3]) -> Option<(Vec3, Vec3)> {
     let [a, b, c] = corners;
     corners.iter().all(|corner| corner.is_finite()).then(|| (a.min(b).min(c), a.max(b).max(c)))
 }
 
-/// Holds that each finite triangle lies in one leaf, that each node is reached once, and that boxes are exact.
+/// Checks that each finite triangle is in exactly one leaf, that each node is reached once, and that boxes
+/// are exact.
 fn check(shape: &Shape, built: &Built) {
     let name = &shape.name;
     let finite = shape.triangles.iter().filter(|t| box_of(shape.corners(**t)).is_some()).count();
@@ -157,7 +158,7 @@ fn check(shape: &Shape, built: &Built) {
     let mut leaves = vec![0; built.original.len()];
     let mut reached = vec![0; built.nodes.len()];
     let mut deepest = 0;
-    // Each node with the box that its parent has for it, and how many nodes lead to it, itself among them.
+    // Each node with its box in its parent, and the number of nodes on the path to it, including itself.
     let mut open: Vec<(usize, Option<Child>, u32)> = vec![(0, None, 1)];
     while let Some((index, of_parent, depth)) = open.pop() {
         reached[index] += 1;
@@ -196,8 +197,8 @@ fn check(shape: &Shape, built: &Built) {
     assert!(deepest <= built.most_depth, "{name}: {deepest} nodes deep");
 }
 
-/// A box as a device may see it: it may take a number below 2^-126 for 0 (Vulkan specification, appendix "Vulkan
-/// Environment for SPIR-V"). The software driver takes none.
+/// A box as a device may read it: numbers below 2^-126 may count as 0 (Vulkan specification, appendix "Vulkan
+/// Environment for SPIR-V"). The software driver preserves them.
 fn seen((low, high): (Vec3, Vec3)) -> [Vec3; 2] {
     let flushed = |x: f32| if x.is_subnormal() { 0.0 } else { x };
     [low, high].map(|corner| {

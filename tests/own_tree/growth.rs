@@ -1,4 +1,4 @@
-//! Growth of steps and builds with the number of triangles, and the effect of a refit on a tree.
+//! The growth of steps and build times with the number of triangles, and the effect of a refit on a tree.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -17,7 +17,7 @@ use crate::rate::{landscape, primary};
 use crate::rig::{BEST, By, Rig};
 use crate::scenes;
 
-/// Rows and columns of landscapes of about 10^3, 10^4, 10^5 and 10^6 triangles.
+/// The rows and columns of landscapes of about 10^3, 10^4, 10^5 and 10^6 triangles.
 const SIDES: [u32; 4] = [23, 72, 225, 708];
 
 /// The shortest of some times, in milliseconds.
@@ -34,7 +34,7 @@ fn bounds(scene: &Scene) -> Vec<Bounds> {
     scenes::triangles(scene).iter().map(|&[a, b, c]| Corners { a, b, c }.bounds()).collect()
 }
 
-/// Nodes and triangles that a ray through a pixel takes, on average.
+/// The average number of nodes and triangles tested by a ray through a pixel.
 fn steps(scene: &Scene, builder: Builder) -> f64 {
     let rig = Rig::beside_the_device(scene, builder);
     let rays = primary(scene, [480, 300]);
@@ -42,7 +42,7 @@ fn steps(scene: &Scene, builder: Builder) -> f64 {
     answers.iter().map(|answer| f64::from(answer.count)).sum::<f64>() / rays.len() as f64
 }
 
-/// Milliseconds of builds on the host: binned, and what reinsertion adds.
+/// Milliseconds of builds on the host: binned, and the additional time for reinsertion.
 fn on_host(scene: &Scene) -> [(&'static str, f64); 3] {
     let bounds = bounds(scene);
     let tree = binned(&bounds);
@@ -54,7 +54,7 @@ fn on_host(scene: &Scene) -> [(&'static str, f64); 3] {
     ]
 }
 
-/// The same on the device, and the driver's own.
+/// The same on the device, and for the driver's own build.
 fn on_device(scene: &Scene) -> [(&'static str, f64); 3] {
     let gpu = gpu_to_be_timed();
     let builder = DeviceBuilder::new(&gpu).unwrap();
@@ -73,7 +73,7 @@ fn on_device(scene: &Scene) -> [(&'static str, f64); 3] {
         opaque: true,
         no_duplicate_any_hit: false,
     }];
-    // With its memory: the framework has no other way to build.
+    // With the allocation: the framework has no separate build.
     let driver = || {
         let options = BuildOptions::default();
         AccelerationStructure::bottom(&gpu, "beside", &geometry, options).unwrap();
@@ -102,7 +102,7 @@ fn from_a_thousand_triangles_to_a_million() {
     expected::give_timed("30_own_tree/growth", figures.into());
 }
 
-/// A landscape is twisted, by so many turns for each unit from its middle.
+/// Twists a landscape, by this many turns per unit from its middle.
 #[test]
 fn a_tree_that_is_refitted_gets_worse() {
     let scene = landscape(72);

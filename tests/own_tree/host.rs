@@ -1,4 +1,4 @@
-//! Builds on the host, over what the chapter shows.
+//! Builds on the host, for the chapter's scene.
 
 use own_tree::{binned, bytes_per_primitive, check, cost, depth, quantised, reinserted};
 

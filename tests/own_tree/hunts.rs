@@ -1,5 +1,5 @@
-//! Rays that hunt for lost hits: through edges and corners of closed meshes, along walls of boxes, far from
-//! the origin. Every triangle in turn, with the same test, says what there is to find.
+//! Rays that search for lost hits: through edges and corners of closed meshes, along walls of boxes, far from
+//! the origin. The expected hit comes from testing every triangle with the same test.
 
 use common::glam::{DVec3, Vec2};
 use common::model::Model;
@@ -16,7 +16,7 @@ use crate::rig::{
     WATERTIGHT,
 };
 
-/// A closed mesh whose corners lie on a sphere, seen from inside by rays: each of them meets it once.
+/// A closed mesh whose corners are on a sphere, for rays from inside: each hits it once.
 pub fn ball(splits: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut corners: Vec<DVec3> = axes.iter().flat_map(|&axis| [axis, -axis]).collect();
@@ -47,7 +47,7 @@ pub fn ball(splits: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (corners, triangles)
 }
 
-/// A closed cube whose walls are grids of triangles: boxes without thickness.
+/// A closed cube whose walls are grids of triangles, so that boxes are flat.
 pub fn cube(cells: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut corners: Vec<DVec3> = Vec::new();
     let mut known = std::collections::BTreeMap::new();
@@ -77,7 +77,7 @@ pub fn cube(cells: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (corners, triangles)
 }
 
-/// A scene of one mesh in one place.
+/// A scene with one mesh and one instance.
 pub fn scene((corners, triangles): (Vec<DVec3>, Vec<[u32; 3]>), size: f64, at: DVec3) -> Scene {
     let vertex = |&corner: &DVec3| Vertex {
         position: (corner * size + at).as_vec3(),
@@ -93,7 +93,7 @@ pub fn scene((corners, triangles): (Vec<DVec3>, Vec<[u32; 3]>), size: f64, at: D
     Scene { model, instances: vec![instance], camera: Camera::default() }
 }
 
-/// Rays from within, through points of edges and through corners of the mesh, some of them along an axis.
+/// Rays from inside through points on edges and through corners of the mesh, some of them along an axis.
 pub fn rays(scene: &Scene, count: usize, seed: u64) -> Vec<Given> {
     let mesh = &scene.model.meshes[0];
     let position = |at: u32| mesh.vertices[at as usize].position;
@@ -109,7 +109,7 @@ pub fn rays(scene: &Scene, count: usize, seed: u64) -> Vec<Given> {
         let from = middle + half * 0.3 * random.in_cube();
         let mut origin = from.as_vec3();
         let mut direction = (target - origin.as_dvec3()).as_vec3();
-        // Across an axis, or nearly so: in the wall of a box, or through it by little.
+        // Perpendicular to an axis, or nearly so: within the wall of a box, or barely through it.
         let axis = random.below(12);
         if axis < 3 && (target[axis] - middle[axis]).abs() < 0.3 * half[axis] {
             origin[axis] = target.as_vec3()[axis];
@@ -120,17 +120,17 @@ pub fn rays(scene: &Scene, count: usize, seed: u64) -> Vec<Given> {
     (0..count).map(ray).collect()
 }
 
-/// Counts by result of rays that each meet a closed mesh once.
+/// The results of rays that each hit a closed mesh once.
 #[derive(Default, Debug)]
 pub struct Count {
     pub rays: usize,
-    /// Rays that no triangle stops, though the mesh is closed: the test of triangles leaks.
+    /// Rays that hit no triangle although the mesh is closed: the triangle test leaks.
     pub leaks: usize,
-    /// Rays that two triangles or more stop: edges that belong to both.
+    /// Rays that hit two or more triangles, at shared edges.
     pub doubled: usize,
-    /// Rays that some triangle stops, and the walk does not find it: a box was missed.
+    /// Rays that hit a triangle the walk does not find: a box was missed.
     pub lost: usize,
-    /// Rays whose walk ends at a triangle farther than the nearest.
+    /// Rays whose walk ends at a triangle other than the nearest.
     pub farther: usize,
 }
 
@@ -147,7 +147,7 @@ impl Count {
     }
 }
 
-/// The scenes of a hunt: two closed meshes, small and large, near and far.
+/// The scenes: two closed meshes, small and large, near and far.
 pub fn hunted() -> Vec<(String, Scene)> {
     let mut scenes = Vec::new();
     for (size, far) in [(1.0, 0.0), (1.0, 10.0), (1.0, 1e3), (1e-3, 1.0), (1e6, 0.0), (0.3, 1e5)] {
@@ -158,7 +158,7 @@ pub fn hunted() -> Vec<(String, Scene)> {
     scenes
 }
 
-/// Hunts in all scenes, `count` rays each.
+/// Searches all scenes with `count` rays each.
 pub fn hunt(rungs: &[Rungs], count: usize, seed: u64, arithmetic: Arithmetic) -> Vec<Count> {
     let mut counts: Vec<Count> = rungs.iter().map(|_| Count::default()).collect();
     for (_, scene) in hunted() {
@@ -195,10 +195,10 @@ fn nor_in_the_worst_arithmetic() {
     assert_eq!((count.leaks, count.lost, count.farther), (0, 0, 0), "{count:?}");
 }
 
-/// In the twelve scenes together ten million, and a few more.
+/// Slightly more than ten million in all twelve scenes together.
 const RAYS_A_SCENE: usize = 833_334;
 
-/// The chapter's table: what each way to test boxes and triangles loses.
+/// The chapter's table: the rays lost by each pair of tests of boxes and triangles.
 #[test]
 #[ignore = "by hand: counts for long"]
 fn the_table_of_what_is_lost() {

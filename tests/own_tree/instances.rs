@@ -7,7 +7,7 @@ use reference::random::Random;
 use crate::hunts::{ball, scene};
 use crate::rig::{BEST, By, Given, NOTHING, Rig};
 
-/// Number of rays, of a thousand from the middle of a ball, that meet it, whose instance has these columns.
+/// The number of rays, of a thousand from the middle of a ball, that hit its instance with these columns.
 fn met(columns: [Vec3; 3]) -> usize {
     let mut scene = scene(ball(2), 1.0, DVec3::ZERO);
     let [x, y, z] = columns.map(Vec3A::from);
@@ -41,7 +41,7 @@ fn rays_are_answered_on_the_narrowest_device() {
 #[test]
 fn what_is_singular_or_is_so_but_for_rounding_is_left_out() {
     let (a, b) = (Vec3::new(0.1, 0.7, -0.3), Vec3::new(-0.9, 0.2, 0.6));
-    // A column of zeros does not come so far: the scene is refused.
+    // A column of zeros is excluded: the scene is refused.
     for third in [a * 0.3 + b * 0.7, a * 3.1 - b, Vec3::X * 1e-39] {
         assert_eq!(met([a, b, third]), 0, "{third}");
     }

@@ -1,4 +1,4 @@
-//! 30_own_tree: trees and walks held to what they promise.
+//! 30_own_tree: checks the promises of trees and walks.
 
 mod device;
 mod growth;

@@ -1,4 +1,4 @@
-//! Our trees beside those of a library: obvhs.
+//! Our trees next to those of a library: obvhs.
 
 use common::glam::{Vec3, Vec3A};
 use obvhs::bvh2::Bvh2;
@@ -10,10 +10,10 @@ use own_tree::{
 
 use crate::scenes::{self, Triangle};
 
-/// Rounds of reinsertion after which ours is compared.
+/// The number of rounds of reinsertion before the comparison.
 pub const ROUNDS: u32 = 8;
 
-/// A library's tree as one of ours, so that it is measured by the same few lines.
+/// Converts a library's tree to ours, so that both are measured by the same code.
 fn converted(theirs: &Bvh2) -> Tree {
     fn child(theirs: &Bvh2, at: u32, nodes: &mut Vec<Node>) -> Child {
         let node = &theirs.nodes[at as usize];
@@ -40,7 +40,7 @@ fn over_boxes(bounds: &[Bounds], preset: BvhBuildParams) -> Tree {
     converted(&build_bvh2(&boxes, preset, &mut Default::default()))
 }
 
-/// It may cut large triangles into several boxes, which our trees do not.
+/// The library may cut large triangles into several boxes, which our trees do not.
 fn over_triangles(triangles: &[Triangle], preset: BvhBuildParams) -> Tree {
     let triangle = |corners: &Triangle| {
         let [v0, v1, v2] = corners.map(Vec3A::from);
@@ -50,15 +50,14 @@ fn over_triangles(triangles: &[Triangle], preset: BvhBuildParams) -> Tree {
     converted(&build_bvh2_from_tris(&triangles, preset, &mut Default::default()))
 }
 
-/// Their slowest, with leaves chosen by the costs that we count. As they are, they take a node for three primitives,
-/// and make larger leaves.
+/// Their slowest preset, with leaves chosen by our cost function. By default a node costs as much as three
+/// primitives there, which makes leaves larger.
 fn slowest() -> BvhBuildParams {
     let collapse_traversal_cost = (TRAVERSAL / INTERSECTION) as f32;
     BvhBuildParams { collapse_traversal_cost, ..BvhBuildParams::very_slow_build() }
 }
 
-/// Costs: theirs at their fastest, ours, ours with reinsertion, theirs at their slowest as they are and by our
-/// costs.
+/// Costs: their fastest, ours, ours with reinsertion, their slowest by default and with our cost function.
 fn costs(bounds: &[Bounds]) -> [f64; 5] {
     let ours = binned(bounds);
     let better = reinserted(ours.clone(), bounds, ROUNDS);

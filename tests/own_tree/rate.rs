@@ -1,4 +1,4 @@
-//! Rays per second: walks beside the device's own queries, in one run.
+//! Rays per second: walks and the device's own queries, in one run.
 
 use std::cell::LazyCell;
 
@@ -16,7 +16,7 @@ use crate::rig::{
     Answer, BARE, BEST, By, Given, MOELLER, NOTHING, PACKED, Rig, Rungs, TWO_FLOAT, WATERTIGHT,
 };
 
-/// Rays through the pixels of a picture, in blocks of 8 by 4 as workgroups have them.
+/// Rays through the pixels of a picture, in blocks of 8 by 4, like a workgroup.
 pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
     let camera = &scene.camera;
     let basis = camera.basis(f64::from(size[0]) / f64::from(size[1]));
@@ -34,7 +34,7 @@ pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
     given
 }
 
-/// From where rays have met something: to the light, or anywhere.
+/// Rays that start at the hits of others: to the light, or in random directions.
 fn secondary(
     given: &[Given],
     answers: &[Answer],
@@ -52,7 +52,8 @@ fn secondary(
     rays
 }
 
-/// Kinds of rays in a scene: through pixels, from there to the light, and from there anywhere.
+/// The kinds of rays in a scene: through pixels, from the hits to the light, and from the hits in random
+/// directions.
 fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
     let given = primary(scene, [960, 600]);
     let (answers, _) = rig.answers(&rig.way(By::Device, BEST), &given);
@@ -67,7 +68,7 @@ fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
     [("primary", given), ("shadow", shadow), ("bounce", bounce)]
 }
 
-/// The middle of some numbers, and what a quarter of them is below and above.
+/// The median of some numbers, and their quartiles.
 fn quartiles(mut numbers: Vec<f64>) -> [f64; 3] {
     numbers.sort_by(f64::total_cmp);
     [1, 2, 3].map(|quarter| numbers[quarter * (numbers.len() - 1) / 4])
@@ -77,7 +78,7 @@ fn misses(answer: &Answer) -> bool {
     answer.instance == NOTHING
 }
 
-/// Speed of walks relative to the device's own, for each kind of ray.
+/// The speed of walks relative to the device's own, for each kind of ray.
 fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     const ROUNDS: usize = 9;
     let rig = Rig::beside_the_device(scene, Builder::Reinserted);
@@ -120,7 +121,7 @@ fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     }
 }
 
-/// A landscape of so many rows and columns of vertices, for each four two triangles.
+/// A landscape with this many rows and columns of vertices, and two triangles for each four.
 pub fn landscape(side: u32) -> Scene {
     let height =
         |x: f64, z: f64| 0.3 * (3.0 * x).sin() * (2.0 * z).cos() + 0.02 * (40.0 * x * z).sin();
@@ -139,7 +140,7 @@ pub fn landscape(side: u32) -> Scene {
     scene
 }
 
-/// Ten thousand balls of one mesh.
+/// Ten thousand balls sharing one mesh.
 fn balls() -> Scene {
     let mut scene = hunts::scene(hunts::ball(2), 1.0, DVec3::ZERO);
     let mut random = Random(5);
@@ -159,7 +160,7 @@ fn balls() -> Scene {
     scene
 }
 
-/// A device without queries is asked by its pipelines: the same rays, and the same answers.
+/// A device without queries uses its pipeline: the same rays, and the same answers.
 #[test]
 fn what_is_traced_is_what_is_queried() {
     let scene = Scene::chess().expect("the chess set");
@@ -170,7 +171,7 @@ fn what_is_traced_is_what_is_queried() {
     let nearest = primary(&scene, [96, 60]);
     let [(ours, _), (theirs, _)] = [&queried, &traced].map(|way| rig.answers(way, &nearest));
     for (one, other) in ours.iter().zip(&theirs) {
-        // At an edge another triangle may answer, at the same distance.
+        // At an edge, another triangle may be hit at the same distance.
         let is_tie = (one.t - other.t).abs() <= 1e-5 * one.t && misses(one) == misses(other);
         assert!(is_tie, "{} and {}, of {} and {}", one.t, other.t, one.instance, other.instance);
     }
@@ -192,7 +193,7 @@ fn walks_beside_queries() {
     expected::give_timed("30_own_tree/rate", figures.into());
 }
 
-/// Time of each way to test boxes and triangles: primary rays and bounces on the chess set.
+/// The time of each pair of tests of boxes and triangles: primary rays and bounces on the chess set.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_time_of_each_rung() {
@@ -223,7 +224,7 @@ fn the_time_of_each_rung() {
     expected::give_timed("30_own_tree/rungs", figures.into());
 }
 
-/// Bytes of nodes and of corners, for each triangle of the chess set.
+/// Bytes of nodes and of corners per triangle of the chess set.
 #[test]
 fn memory_is_what_the_page_says() {
     let scene = Scene::chess().expect("the chess set");

@@ -1,4 +1,4 @@
-//! A device, a scene with trees of both kinds, and rays that are answered by walks, by queries or by force.
+//! A device, a scene with trees of both kinds, and rays traced by walks, by queries or by brute force.
 
 use std::sync::Arc;
 
@@ -13,9 +13,9 @@ use own_tree::{Builder, OwnScene, RAYS, TRACED, Trees};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
-/// Most invocations of a workgroup: fewer where the device takes fewer, and every device takes 128.
+/// The largest workgroup: smaller if the device requires it, and every device supports 128.
 const WORKGROUP: u32 = 256;
-/// Invocations in a row of a dispatch.
+/// Invocations per row of a dispatch.
 const ACROSS: u32 = 1 << 12;
 
 common::shader_struct! {
@@ -53,18 +53,18 @@ common::shader_struct! {
 pub enum By {
     Walk,
     All,
-    /// The device's own: its ray queries, or its pipelines where it has no queries.
+    /// The device's own: its ray queries, or its pipeline if it has no queries.
     Device,
 }
 
-/// Something that answers rays.
+/// A way to trace rays.
 pub enum Way {
     Computed(ComputePipeline),
     Queried(ComputePipeline),
     Traced(Box<(RayTracingPipeline, ShaderBindingTable)>),
 }
 
-/// The tests of boxes and triangles: the chapter's choices, by their numbers.
+/// The tests of boxes and triangles, as the numbers of the chapter's choices.
 #[derive(Clone, Copy)]
 pub struct Rungs {
     pub boxes: u32,
@@ -82,7 +82,7 @@ pub const TWO_FLOAT: u32 = 2;
 pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false };
 pub const PACKED: Rungs = Rungs { quantised: true, ..BEST };
 
-/// Seconds that processors have worked for the threads that this process has.
+/// The processor time of this process's threads, in seconds.
 fn worked() -> f64 {
     let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
     let nanoseconds = threads.filter_map(|thread| {
@@ -95,25 +95,25 @@ fn worked() -> f64 {
 pub struct Rig {
     pub gpu: Gpu,
     pub own: OwnScene,
-    /// True if the device supports queries, and they are to be used.
+    /// True if the device supports queries and they are enabled.
     pub queries: bool,
-    /// The device's own structures, where they are used.
+    /// The device's own acceleration structures, if they are used.
     pub levels: Option<SceneOnGpu>,
     instances: u32,
 }
 
 impl Rig {
-    /// For walks alone.
+    /// A rig for walks only.
     pub fn new(scene: &Scene, builder: Builder) -> Self {
         Self::make(scene, builder, false, Arithmetic::Driver)
     }
 
-    /// For walks in such arithmetic.
+    /// A rig for walks in the given arithmetic.
     pub fn in_arithmetic(scene: &Scene, builder: Builder, arithmetic: Arithmetic) -> Self {
         Self::make(scene, builder, false, arithmetic)
     }
 
-    /// For walks and what the device has; without validation, which would be timed.
+    /// A rig for walks and the device's own traversal, without validation, which would distort the times.
     pub fn beside_the_device(scene: &Scene, builder: Builder) -> Self {
         Self::make(scene, builder, true, Arithmetic::Driver)
     }
@@ -141,7 +141,7 @@ impl Rig {
         Self { gpu, own, queries, levels, instances: scene.instances.len() as u32 }
     }
 
-    /// A way to have rays answered.
+    /// A way to trace rays.
     pub fn way(&self, by: By, rungs: Rungs) -> Way {
         let traced = |gpu: &Gpu| {
             let [raygen, miss, closest_hit] = TRACED;
@@ -181,8 +181,8 @@ impl Rig {
         way.expect("it compiles")
     }
 
-    /// The answer to each ray, and the milliseconds that they took: of processors, where the device is
-    /// software, and by the device's clock elsewhere.
+    /// The answer to each ray, and the time in milliseconds: processor time for a software device, otherwise
+    /// by the device's clock.
     pub fn answers(&self, way: &Way, given: &[Given]) -> (Vec<Answer>, f64) {
         let rays =
             Buffer::with_data(&self.gpu, "rays", given, Buffer::ADDRESSED).expect("room for rays");

@@ -1,4 +1,4 @@
-//! Scenes that trees are built over.
+//! Scenes to build trees for.
 
 use common::glam::Vec3;
 use common::scene::{Mesh, Scene};
@@ -7,14 +7,14 @@ use own_tree::Bounds;
 /// A triangle's corners.
 pub type Triangle = [Vec3; 3];
 
-/// A list of triangles, and what it is called.
+/// A named list of triangles.
 pub struct Triangles {
     pub name: String,
     pub list: Vec<Triangle>,
 }
 
 impl Triangles {
-    /// The box around each.
+    /// The bounding box of each.
     pub fn bounds(&self) -> Vec<Bounds> {
         let around = |[a, b, c]: &Triangle| (a.min(*b).min(*c), a.max(*b).max(*c));
         self.list.iter().map(around).collect()
@@ -31,7 +31,7 @@ fn corners(mesh: &Mesh) -> Vec<Triangle> {
     mesh.triangles.iter().map(|triangle| triangle.map(position)).collect()
 }
 
-/// The meshes of the chess set, and all of its world as one list.
+/// The meshes of the chess set, and its whole world as one list.
 pub fn chess() -> Vec<Triangles> {
     let Scene { model, instances, .. } = Scene::chess().unwrap();
     let world = instances.iter().flat_map(|instance| {
@@ -47,7 +47,7 @@ pub fn chess() -> Vec<Triangles> {
         .collect()
 }
 
-/// Triangles at random places in a cube, a few hundredths of it in size for 100,000, and smaller if more.
+/// Triangles at random places in a cube: for 100,000 a few hundredths of its size, smaller if there are more.
 pub fn random_triangles(count: usize) -> Triangles {
     let size = 0.04 * (1e5 / count as f32).cbrt();
     let triangle = |i: u64| {
@@ -58,7 +58,7 @@ pub fn random_triangles(count: usize) -> Triangles {
     Triangles { name: format!("{count} random triangles"), list }
 }
 
-/// Boxes around spheres at random places, of many sizes.
+/// The bounding boxes of spheres at random places, of many sizes.
 pub fn spheres(count: u64) -> Vec<Bounds> {
     (0..count)
         .map(|i| {
@@ -72,7 +72,7 @@ fn point(i: u64) -> Vec3 {
     Vec3::new(chance(3 * i), chance(3 * i + 1), chance(3 * i + 2))
 }
 
-/// A hash of a number (splitmix64), as a number from 0 to 1.
+/// A hash of a number (splitmix64), mapped to a number from 0 to 1.
 fn chance(i: u64) -> f32 {
     let z = (i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

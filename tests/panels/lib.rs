@@ -1,4 +1,4 @@
-//! Pictures side by side and in rows, each under a label: what a page compares.
+//! Pictures side by side and in rows, each under a label, for comparison on a page.
 
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 use anyhow::{Context, Result, ensure};
@@ -14,18 +14,18 @@ const LETTERS: f32 = 17.0;
 const PAPER: Rgb<u8> = Rgb([255; 3]);
 const INK: Rgb<u8> = Rgb([40; 3]);
 
-/// The widget under a label.
+/// The content under a label.
 pub enum Panel {
     /// A picture.
     Picture(RgbImage),
-    /// The reason why there is none.
+    /// The reason why there is no picture.
     Words(String),
 }
 
 /// Panels of one size in rows, from left to right, each under its label.
 ///
 /// # Errors
-/// If a label is wider than a panel, or the font is no font.
+/// If a label is wider than a panel, or the font is invalid.
 pub fn sheet((width, height): (u32, u32), rows: &[Vec<(String, Panel)>]) -> Result<RgbImage> {
     let columns = rows.iter().map(|row| row.len() as u32).max().unwrap_or(0);
     let size =
@@ -57,7 +57,7 @@ pub fn sheet((width, height): (u32, u32), rows: &[Vec<(String, Panel)>]) -> Resu
     Ok(sheet)
 }
 
-/// Whole words in lines of at most `width` letters.
+/// Breaks a text into lines of at most `width` letters, at words.
 fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

@@ -1,7 +1,7 @@
-//! Radeon cards that are not there, and their whole driver: Mesa's RADV over Mesa's drm-shim.
+//! Stand-ins for Radeon cards with their complete driver: Mesa's RADV over Mesa's drm-shim.
 //!
-//! Limits, memory, images, builds and traces are the card's. What is submitted is never executed: what such a
-//! card has drawn is nothing, and is compared with nothing.
+//! Limits, memory, images, builds and traces are the card's. Submitted work is never executed, so pictures
+//! are empty and are compared with nothing.
 
 use std::ffi::OsString;
 use std::process::{Command, Output};
@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use crate::{command, device};
 
-/// Lines that RADV and the shim write to standard error of their own accord.
+/// Lines that RADV and the shim print to standard error by themselves.
 const NOISE: [&str; 3] =
     ["DRM_IOCTL_GET_CAP: unhandled", "radv/amdgpu:", "WARNING: radv is not a conformant"];
 
@@ -23,10 +23,10 @@ const DRIVERS: &str = "VK_DRIVER_FILES";
 pub struct Card(pub &'static str);
 
 impl Card {
-    /// Environment in which a program finds this card alone; `None`, and a line, where there is no shim.
+    /// The environment in which a program finds only this card; `None`, with a message, if there is no shim.
     pub fn environment(self) -> Option<Vec<(&'static str, OsString)>> {
         let [mut variables, _] = ways(self.0);
-        // The linker itself says whether it finds the library.
+        // The dynamic linker itself reports whether it finds the library.
         let linker = Command::new("true").envs(variables.clone()).output().expect("`true` starts");
         let manifest = match manifest() {
             Ok(manifest) if linker.stderr.is_empty() => manifest,
@@ -41,7 +41,7 @@ impl Card {
         Some(variables)
     }
 
-    /// The same with the software driver beside it, as on a machine that has both.
+    /// The same with the software driver in addition, as on a machine with both.
     pub fn beside_software(self) -> Option<Vec<(&'static str, OsString)>> {
         let mut variables = self.environment()?;
         let radv = &mut variables.last_mut().expect("the driver's manifest").1;
@@ -54,8 +54,8 @@ impl Card {
         Some(variables)
     }
 
-    /// Has a command, and all that it starts, find this card and every driver that is installed, as a fresh `cargo
-    /// test` would with this `GPU`; false, and a line, where there is no shim.
+    /// Makes a command, and all its children, find this card and every installed driver, as a fresh `cargo
+    /// test` with this `GPU` would; false, with a message, if there is no shim.
     pub fn found_by(self, command: &mut Command, gpu: Option<&str>) -> bool {
         let Some(variables) = self.environment() else { return false };
         let drivers = [device::VARIABLE, DRIVERS];
@@ -67,7 +67,7 @@ impl Card {
         true
     }
 
-    /// Tests whether the installed shim knows the card; if not, prints a line.
+    /// Returns whether the installed shim knows the card; prints a message if it does not.
     pub fn is_known(self) -> bool {
         let Some(mut command) = self.command("02_basic") else { return false };
         let output = command.arg("--list-devices").output().expect("it starts");
@@ -78,7 +78,7 @@ impl Card {
         known
     }
 
-    /// A sample's command with this card alone.
+    /// A sample's command with only this card.
     pub fn command(self, name: &str) -> Option<Command> {
         let mut command = command(name);
         command.envs(self.environment()?);
@@ -93,7 +93,7 @@ pub fn said(output: &Output) -> String {
     own.collect::<Vec<_>>().join("\n")
 }
 
-/// The report of a run that must have succeeded without a word, with `--report -`.
+/// The report of a run with `--report -`, which must have succeeded without messages.
 #[track_caller]
 pub fn report(what: &str, output: &Output) -> Value {
     assert!(output.status.success(), "{what}: {}", said(output));
@@ -103,7 +103,7 @@ pub fn report(what: &str, output: &Output) -> Value {
     report
 }
 
-/// The exit code and the one line of a run that must have failed.
+/// The exit code and the message of a run that must have failed with one line.
 #[track_caller]
 pub fn refusal(output: &Output) -> (i32, String) {
     let line = said(output);

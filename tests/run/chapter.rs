@@ -1,4 +1,5 @@
-//! A run of a chapter, told as a sentence: `Chapter::new("22_solids").set("view", "inside").picture()`.
+//! A run of a chapter, configured by chained calls: `Chapter::new("22_solids").set("view",
+//! "inside").picture()`.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ pub fn set_arguments<'a>(settings: &[&'a str]) -> Vec<&'a str> {
     settings.iter().flat_map(|&setting| ["--set", setting]).collect()
 }
 
-/// A headless run under validation, of 96x60 pixels unless said.
+/// A headless run under validation, at 96x60 pixels by default.
 #[derive(Clone, Debug)]
 #[must_use = "it runs at `picture` or `run`"]
 pub struct Chapter {
@@ -25,7 +26,7 @@ pub struct Chapter {
 }
 
 impl Chapter {
-    /// The chapter of this name, as it starts.
+    /// The chapter of this name, with its default settings.
     pub fn new(name: impl Into<String>) -> Self {
         let (name, size) = (name.into(), "96x60".to_owned());
         Self { name, size, arguments: Vec::new(), shaders: None }
@@ -48,23 +49,23 @@ impl Chapter {
         self.with(&set_arguments(&settings))
     }
 
-    /// Number of frames; the last one is the picture.
+    /// The number of frames; the last one is the picture.
     pub fn frames(self, frames: u32) -> Self {
         self.with(&["--frames", &frames.to_string()])
     }
 
-    /// A file in the place of the chapter's own scene.
+    /// A file instead of the chapter's own scene.
     pub fn scene(self, file: impl AsRef<Path>) -> Self {
         let file = file.as_ref().to_str().expect("a path of plain letters");
         self.with(&["--scene", file])
     }
 
-    /// The arithmetic, of `--arithmetic`.
+    /// The arithmetic, as in `--arithmetic`.
     pub fn arithmetic(self, arithmetic: &str) -> Self {
         self.with(&["--arithmetic", arithmetic])
     }
 
-    /// Other shaders than the book's.
+    /// Shaders from a folder instead of the book's.
     pub fn shaders(mut self, folder: impl Into<PathBuf>) -> Self {
         self.shaders = Some(folder.into());
         self
@@ -85,7 +86,7 @@ impl Chapter {
         command
     }
 
-    /// Runs it; a failure or a message is a failed test.
+    /// Runs it; a failure or a message fails the test.
     #[track_caller]
     pub fn run(&self) -> Run {
         let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
@@ -98,11 +99,12 @@ impl Chapter {
         self.run().picture
     }
 
-    /// The picture of a run, which tests of this program that ask for the same share: equal commands give equal bytes,
-    /// which [`Chapter::repeats`] tests. Not for files and shaders of a test's own, which may change under their name.
+    /// The picture of a run, shared by tests of this program that request the same one: equal commands give
+    /// equal bytes, which [`Chapter::repeats`] checks. Not for files and shaders of a test's own, whose
+    /// contents may change under the same name.
     #[track_caller]
     pub fn shared_picture(&self) -> Arc<Picture> {
-        /// A run's picture, by the run's name, size and arguments.
+        /// Pictures, by the name, size and arguments of the run.
         type Shared = HashMap<(String, String, Vec<String>), Arc<OnceLock<Arc<Picture>>>>;
         static SHARED: LazyLock<Mutex<Shared>> = LazyLock::new(Mutex::default);
         assert!(self.shaders.is_none(), "shaders of a test's own are not shared");
@@ -113,7 +115,7 @@ impl Chapter {
         Arc::clone(slot.get_or_init(|| Arc::new(self.picture())))
     }
 
-    /// Runs it again: the picture must have the same bits.
+    /// Runs it again, and checks that the picture has the same bits.
     #[track_caller]
     pub fn repeats(&self) {
         assert!(bits(&self.shared_picture()) == bits(&self.picture()), "another picture");
@@ -121,7 +123,8 @@ impl Chapter {
 
     /// Runs it and compares its picture with the golden one, `tests/golden/NAME.png`.
     ///
-    /// The tolerance is that of llvmpipe (Mesa 25.0.7), which made the goldens and repeats them to the bit.
+    /// The tolerance is that of llvmpipe (Mesa 25.0.7), which made the golden pictures and reproduces them
+    /// bit for bit.
     #[track_caller]
     pub fn is_golden(&self) {
         golden(&self.name, &self.shared_picture(), flip::TOLERANCE);

@@ -1,17 +1,18 @@
-//! Bounds on the difference of two pictures that come from the same formulas.
+//! Bounds on the difference of two pictures computed with the same formulas.
 //!
 //! Vulkan promises equal results of *identical* pipelines, made of the same SPIR-V and the same state
-//! (specification, appendix Invariance, rules 4 and 7). Of two others it says no more than how far each may be
-//! from the exact result. On the software driver they are held to the same bits all the same, which notices
-//! more; on any other device, and in worst arithmetic that has a seed, to bounds.
+//! (specification, appendix Invariance, rules 4 and 7). For two others, it only bounds the difference of each
+//! from the exact result. On the software driver they are nevertheless compared bit for bit, which detects
+//! more; on any other device, and in worst arithmetic with a seed, they are compared within bounds.
 
 use common::app::Picture;
 pub use flip::near::{Near, flipped};
 
 use crate::{bits, device, flip};
 
-/// In how many pixels two pictures of `show=hit` have another answer at the same distance, and in how many
-/// others. The distance is that of either triangle's own test, off by up to 16 ULP (`docs/arithmetic.md`).
+/// The number of pixels in which two pictures of `show=hit` have another answer at the same distance, and of
+/// other differences. The distance comes from either triangle's own test, which may be off by up to 16 ULP
+/// (`docs/arithmetic.md`).
 pub fn ties(one: &Picture, other: &Picture) -> (usize, usize) {
     let pairs = one.pixels.iter().zip(&other.pixels).filter(|(one, other)| one != other);
     let (mut ties, mut others) = (0, 0);
@@ -23,8 +24,8 @@ pub fn ties(one: &Picture, other: &Picture) -> (usize, usize) {
     (ties, others)
 }
 
-/// Holds two pictures of `show=hit`, of builds in another order, to the same answers: to the bit on the software
-/// driver, elsewhere but for ties and what flips.
+/// Checks that two pictures of `show=hit`, from builds in another order, agree: bit for bit on the software
+/// driver, elsewhere except for ties and flips.
 #[track_caller]
 pub fn same_hits(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     let (ties, others) = ties(one, other);
@@ -36,8 +37,8 @@ pub fn same_hits(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     }
 }
 
-/// Holds two pictures of colours, by different pipelines of the chapter, to be the same: to the bit on the
-/// software driver, elsewhere as near as two pictures are that are both inexact.
+/// Checks that two pictures of colours, from different pipelines of the chapter, are equal: bit for bit on
+/// the software driver, elsewhere within the bound for two inexact pictures.
 #[track_caller]
 pub fn same_colors(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     if device::is_software() {
@@ -48,7 +49,7 @@ pub fn same_colors(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     }
 }
 
-/// The same of pictures of answers, such as those of `show=hit`.
+/// The same for pictures of data, such as those of `show=hit`.
 #[track_caller]
 pub fn same_answers(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     if device::is_software() {
@@ -59,8 +60,8 @@ pub fn same_answers(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     }
 }
 
-/// Bound on the mean FLIP between a chapter's picture by this device and the golden one: `own` is the bound for the
-/// software driver, which made it. `None` if a picture shows the device's own errors.
+/// Bound on the mean FLIP between a chapter's picture by this device and the golden picture; `own` is the
+/// bound for the software driver, which made it. `None` if a picture shows the device's own errors.
 pub(crate) fn golden_tolerance(name: &str, picture: &Picture, own: f32) -> Option<f32> {
     if device::is_software() {
         return Some(own);

@@ -1,8 +1,8 @@
-//! Values that pages print: a test compares them with what `docs/values` has stored of them.
+//! Values printed on pages: a test compares them with those stored in `docs/values`.
 //!
-//! `cargo chapters measure` runs the test with the environment variable `FIGURES`: then what it gave goes
-//! to that folder, and the tool stores it. `cargo chapters exercise` sets `EXERCISE`: what a reader changes
-//! gives other figures than the page's, and none is held.
+//! `cargo chapters measure` runs the test with the environment variable `FIGURES`: then the values are
+//! written to that folder, and the tool stores them. `cargo chapters exercise` sets `EXERCISE`: a reader's
+//! changes give other values than the page's, and none is compared.
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -11,42 +11,43 @@ use serde_json::{Value, json};
 
 use crate::{render, root};
 
-/// The device that the samples take, and its driver.
+/// The device used by the samples, and its driver.
 static DEVICE: LazyLock<(Value, Value)> = LazyLock::new(|| {
     let mut report = render("01_foundation", "16x10", &[]).report;
     (report["device"].take(), report["driver"].take())
 });
 
-/// Holds figures that this device gives in every run: `values` is an object of numbers, in the order in
-/// which the page shows them, and `name` such as `05_shadow_miss/acne`.
+/// Compares values that are the same in every run on this device: `values` is an object of numbers, in the
+/// order of the page, and `name` is such as `05_shadow_miss/acne`.
 ///
-/// Another device than that of the stored ones may give others.
+/// Another device than that of the stored values may give others.
 pub fn hold(name: &str, values: Value) {
     let (device, driver) = &*DEVICE;
     settle(name, false, (device.clone(), driver.clone()), values);
 }
 
-/// Holds figures that the test computes by itself: they are the same everywhere.
+/// Compares values that the test computes itself, which are the same everywhere.
 pub fn hold_exact(name: &str, values: Value) {
     settle(name, false, ("host".into(), "".into()), values);
 }
 
-/// Holds figures of a GPU's compiler, which it gives in every run, for a generation such as `RDNA3`.
+/// Compares the figures of a GPU's compiler, which are the same in every run, for a generation such as
+/// `RDNA3`.
 pub fn hold_compiled(name: &str, compiler: &str, generation: &str, values: Value) {
     settle(name, false, ("RADV".into(), format!("{compiler}, {generation}").into()), values);
 }
 
-/// Tests whether this device and its driver are those of stored figures.
+/// Returns whether this device and its driver are those of stored values.
 ///
-/// For claims that hold of one driver, where Vulkan leaves the matter open: a test says why beside it, and
-/// holds of all others only what Vulkan promises.
+/// For claims about one driver in matters that Vulkan leaves open: a test says why next to it, and only
+/// claims what Vulkan promises for all others.
 pub fn are_of_this_driver(name: &str) -> bool {
     let stored = stored(name);
     let (device, driver) = &*DEVICE;
     stored["device"] == *device && stored["driver"] == *driver
 }
 
-/// Gives figures that differ from run to run, such as times: nothing is compared.
+/// Writes values that differ from run to run, such as times, without a comparison.
 pub fn give_timed(name: &str, values: Value) {
     if std::env::var_os("FIGURES").is_some() {
         let (device, driver) = &*DEVICE;
@@ -77,7 +78,7 @@ fn settle(name: &str, timed: bool, (device, driver): (Value, Value), values: Val
     assert_eq!(stored["values"], values, "{name} is not what {} has; {renew}", file.display());
 }
 
-/// The file with the values of a measurement's page.
+/// The file with the stored values of a measurement's page.
 fn file(name: &str) -> PathBuf {
     let page = name.split('/').next().unwrap_or(name);
     root().join(format!("docs/values/{page}.json"))

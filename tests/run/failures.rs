@@ -1,4 +1,4 @@
-//! Calls of Vulkan that fail, one a run: each is to be answered in one line.
+//! Failing Vulkan calls, one per run: each must be reported in one line.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,7 +16,7 @@ const OUT_OF_POOL_MEMORY: i32 = -1_000_069_000;
 const SURFACE_LOST: i32 = -1_000_000_000;
 const OUT_OF_DATE: i32 = -1_000_001_004;
 
-/// Results that a function may return, by the specification, and that are treated differently here.
+/// Results that a function may return according to the specification, and that are treated differently here.
 fn results(function: &str) -> &'static [i32] {
     match function {
         "vkQueueSubmit"
@@ -38,26 +38,26 @@ fn results(function: &str) -> &'static [i32] {
     }
 }
 
-/// Tests whether a run can do without it: its failure may go unsaid.
+/// Returns whether a run can continue without the call, so that its failure may go unreported.
 fn needless(function: &str, result: i32) -> bool {
     match function {
         "vkCreatePipelineCache" | "vkGetPipelineCacheData" | "vkSetDebugUtilsObjectNameEXT" => true,
-        // The last wait of all: what it waits for was waited for.
+        // The last wait of all: everything it waits for has already been waited for.
         "vkDeviceWaitIdle" => true,
-        // They are begun again.
+        // These calls are repeated.
         "vkWaitForFences" | "vkQueueWaitIdle" => result == OUT_OF_HOST_MEMORY,
-        // A device is chosen without it, too, and the swapchain asks again.
+        // A device can be chosen without it, and the swapchain calls it again.
         "vkGetPhysicalDeviceSurfaceCapabilitiesKHR" => true,
-        // What a window system takes away is made again.
+        // Objects lost by the window system are recreated.
         _ => matches!(result, SURFACE_LOST | OUT_OF_DATE),
     }
 }
 
-/// Runs a program once for each call that is to fail, prints how many failures there were and which were not
-/// told of in one line and exit code 1, and returns whether all were.
+/// Runs a program once for each call to fail, prints the number of failures and those not reported with one
+/// line and exit code 1, and returns whether all were reported.
 ///
-/// `run` starts the program under a layer, with the file in `CALLS` to which its calls are told. `numbers`
-/// chooses the calls: of a function that is called so often, those with these numbers fail.
+/// `run` starts the program under a layer, with the file in `CALLS` to which its calls are written. `numbers`
+/// chooses the calls: given the number of calls of a function, it returns those to fail.
 pub fn each_is_answered(
     name: &str,
     run: impl Fn(&Layer, &Path) -> Output,
@@ -77,9 +77,9 @@ pub fn each_is_answered(
         let fault = format!("{function}:{number}:{result}");
         let (output, now) = run(&fault);
         let errors = String::from_utf8_lossy(&output.stderr);
-        // How many bands a picture has depends on the time: this run may have had fewer calls.
+        // The number of bands depends on the time, so this run may have had fewer calls.
         let unmet = now.get(function).is_some_and(|&calls| calls < number);
-        // A card has memory of several types: what fails in one is tried in another.
+        // A card has several types of memory; after a failure in one, another is tried.
         let elsewhere = ["vkAllocateMemory", "vkMapMemory"].contains(&function)
             && now.get(function) > calls.get(function);
         let may_succeed = needless(function, result) || unmet || elsewhere;
@@ -103,7 +103,7 @@ pub fn each_is_answered(
     all_right
 }
 
-/// The function, the result and the number of each call that is to fail.
+/// The function, the result and the number of each call to fail.
 fn faults(
     calls: &BTreeMap<String, usize>,
     numbers: impl Fn(usize) -> Vec<usize>,
@@ -129,7 +129,7 @@ pub fn all(count: usize) -> Vec<usize> {
     (1..=count).collect()
 }
 
-/// The chapters whose calls shall fail: those that `CHAPTERS` names by their first letters, else all.
+/// The chapters whose calls are made to fail: those whose names begin with the words in `CHAPTERS`, or all.
 pub fn chapters() -> Vec<String> {
     let chosen = std::env::var("CHAPTERS").unwrap_or_default();
     let mut all = crate::chapters();

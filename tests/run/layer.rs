@@ -1,4 +1,4 @@
-//! Layers between a program and the driver, for tests alone.
+//! Layers between a program and the driver, used only by tests.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -9,20 +9,20 @@ use tempfile::TempDir;
 
 use crate::command;
 
-/// A layer, made known to the Vulkan loader for as long as this lives.
+/// A layer, registered with the Vulkan loader for as long as this lives.
 pub struct Layer {
     folder: TempDir,
     layers: String,
-    /// True if the loader finds it before all others.
+    /// True if the loader calls it before all others.
     first: bool,
     variables: Vec<(&'static str, OsString)>,
 }
 
 impl Layer {
-    /// The narrowest device: all is hidden that Vulkan need not offer. `faults` is what else is wrong with
-    /// it, in the words of `tests/layer/minimum_limits`.
+    /// The narrowest device: everything optional is hidden. `faults` adds faults, in the words of
+    /// `tests/layer/minimum_limits`.
     pub fn minimum_limits(faults: &str) -> Self {
-        // Validation holds the program to what it sees, without being asked.
+        // Validation checks the program against the narrow device, without being requested.
         let layers = format!("VK_LAYER_KHRONOS_validation:{}", minimum_limits::NAME);
         Self::new(
             "minimum_limits",
@@ -33,7 +33,7 @@ impl Layer {
         )
     }
 
-    /// A display or a card with a mood of its own, in the words of `tests/layer/display_faults`.
+    /// A display or a card with unusual behaviour, in the words of `tests/layer/display_faults`.
     pub fn display_faults(words: &str) -> Self {
         let layers = format!("VK_LAYER_KHRONOS_validation:{}", display_faults::NAME);
         Self::new(
@@ -52,9 +52,9 @@ impl Layer {
         Self::new("micromaps", micromaps::NAME, layers, false, vec![("MICROMAPS", words.into())])
     }
 
-    /// A call that fails: `fault` names it in the words of `tests/layer/fail_nth_call`; empty for none.
+    /// A failing call: `fault` names it in the words of `tests/layer/fail_nth_call`; empty for none.
     pub fn fail_nth_call(fault: &str) -> Self {
-        // Mesa's own layer, which sorts devices, crashes of some failures.
+        // Mesa's own layer, which sorts devices, crashes on some failures.
         let alone = ("NODEVICE_SELECT", "1".into());
         let variables = vec![("FAIL", fault.into()), alone];
         Self::new(
@@ -66,8 +66,8 @@ impl Layer {
         )
     }
 
-    /// Number of calls of each function by a program under a failing layer, from the file that `CALLS` in its
-    /// environment names; nothing if it came to no end.
+    /// The number of calls of each function by a program under a failing layer, from the file in `CALLS` of
+    /// its environment; empty if the program did not finish.
     pub fn calls(file: &Path) -> BTreeMap<String, usize> {
         let told = std::fs::read_to_string(file).unwrap_or_default();
         let pair = |line: &str| {
@@ -87,7 +87,7 @@ impl Layer {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let place = folder.path().join("vulkan/explicit_layer.d");
         std::fs::create_dir_all(&place).expect("a folder");
-        // One program may hold both layers' code: each has a name of its own for where the loader enters.
+        // One program may contain the code of several layers, so each has its own entry point.
         let entry = format!("{library}_negotiate");
         let layer = serde_json::json!({
             "functions": { "vkNegotiateLoaderLayerInterfaceVersion": entry },
@@ -104,7 +104,7 @@ impl Layer {
         Self { folder, layers, first, variables }
     }
 
-    /// A sample under that layer.
+    /// A sample under this layer.
     pub fn command(&self, name: &str) -> Command {
         let mut command = command(name);
         command.envs(self.environment());
@@ -113,15 +113,15 @@ impl Layer {
 
     /// Variables of a program's environment.
     ///
-    /// The order in which the layers are named is that in which they are called, before those that the
-    /// program asks for: validation sees what a failing layer lets through, and comes before a narrow device.
-    /// Loaders from 1.3.234 to 1.3.246 call them in the order in which they find them instead
-    /// (<https://github.com/KhronosGroup/Vulkan-Loader/pull/1170>), so that is made the same.
+    /// Layers are called in the order in which they are named, before those that the program enables:
+    /// validation sees what a failing layer passes on, and comes before a narrow device. Loaders from 1.3.234
+    /// to 1.3.246 call them in the order in which they find them instead
+    /// (<https://github.com/KhronosGroup/Vulkan-Loader/pull/1170>), so that order is made the same.
     pub fn environment(&self) -> Vec<(&'static str, OsString)> {
         self.environment_in(std::env::var_os("XDG_DATA_DIRS"))
     }
 
-    /// The same for this layer above another, without the validation that the other brings.
+    /// The environment for this layer above another, without the other's validation.
     pub fn above(&self, below: &Self) -> Vec<(&'static str, OsString)> {
         let mut all = below.environment();
         let folders = all.iter().find(|(name, _)| *name == "XDG_DATA_DIRS");
@@ -150,7 +150,7 @@ impl Layer {
     }
 }
 
-/// The layer's library: cargo puts it beside the tests that depend on it.
+/// The layer's library, which cargo puts next to the tests that depend on it.
 fn path(library: &str) -> PathBuf {
     use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
     let test = std::env::current_exe().expect("a running program has a file");
@@ -159,8 +159,9 @@ fn path(library: &str) -> PathBuf {
     library
 }
 
-/// Runs a test of this program, one with `#[ignore]` or not, in a child process in which every device is the
-/// narrowest. For tests that call Vulkan themselves: the layer comes by the environment of a whole process.
+/// Runs a test of this program, possibly one with `#[ignore]`, in a child process in which every device is
+/// the narrowest. For tests that call Vulkan themselves: a layer is enabled by the environment of a whole
+/// process.
 #[track_caller]
 pub fn in_child(test: &str, faults: &str) {
     let narrow = Layer::minimum_limits(faults);

@@ -1,4 +1,4 @@
-//! A ray that leaves a surface, by exact arithmetic: what it may hit, and what it must.
+//! A ray that leaves a surface, in exact arithmetic: the surfaces it may hit, and those it must.
 
 use std::fmt;
 
@@ -12,20 +12,20 @@ use serde_json::{Value, json};
 /// The outcome of a ray that left a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// As exact arithmetic has it.
+    /// The same as in exact arithmetic.
     Right,
-    /// Different, but nearer to an edge or to the surface than [`Leaving::gap`].
+    /// Different, but closer to an edge or to the surface than [`Leaving::gap`].
     Close,
-    /// The surface it left was hit again, or something behind the plane of that triangle.
+    /// The ray hit the surface it left, or something behind the plane of that triangle.
     SelfHit,
-    /// The ray passed over a surface that stands in its way by exact arithmetic.
+    /// The ray missed a surface that exact arithmetic hits.
     Lost,
-    /// The ray hit a surface that exact arithmetic passes by.
+    /// The ray hit a surface that exact arithmetic misses.
     Astray,
 }
 
-/// A ray that the GPU traced from a triangle, and the exact one: the same direction, but from the very
-/// point where the ray before it met the triangle.
+/// A ray that the GPU traced from a triangle, and the exact one: the same direction, but from the exact point
+/// where the previous ray hit the triangle.
 #[derive(Clone, Copy)]
 pub struct Leaving<'a> {
     scene: &'a Scene,
@@ -34,13 +34,13 @@ pub struct Leaving<'a> {
     ray: Ray,
     corner: DVec3,
     up: DVec3,
-    /// 64 units in the last place of the largest coordinate at hand: an occluder as low as that may be
-    /// passed over, and one whose edge is as near as that may be missed or met.
+    /// 64 units in the last place of the largest coordinate involved: an occluder this low may be missed, and
+    /// one whose edge is this close may be missed or hit.
     gap: f64,
 }
 
 impl<'a> Leaving<'a> {
-    /// The GPU's ray is `traced`, to the bit; the one before it was `arriving` and had this hit.
+    /// `traced` is the GPU's ray, bit for bit; the previous one was `arriving` and had this hit.
     ///
     /// # Panics
     /// If the scene has no such triangle.
@@ -59,12 +59,12 @@ impl<'a> Leaving<'a> {
         Self { scene, own, traced: *traced, ray, corner: a, up, gap: 64.0 * ulp }
     }
 
-    /// Sine of the angle between the ray and the surface; negative where it enters.
+    /// Sine of the angle between the ray and the surface; negative if the ray enters it.
     pub fn steepness(&self) -> f64 {
         self.up.dot(self.ray.direction) / self.ray.direction.length()
     }
 
-    /// Judges the nearest hit that the GPU found, `None` for a miss.
+    /// Judges the nearest hit found by the GPU, `None` for a miss.
     pub fn nearest(&self, answer: Option<Answer>) -> Outcome {
         if let Some(must) = self.must_hit() {
             let reached = |answer: &Answer| {
@@ -94,7 +94,7 @@ impl<'a> Leaving<'a> {
         }
     }
 
-    /// Judges whether the GPU's ray met anything at all.
+    /// Judges whether the GPU's ray hit anything at all.
     pub fn any(&self, blocked: bool) -> Outcome {
         let exact = self.scene.closest_hit(&self.ray, |hit| self.id(hit) != self.own).is_some();
         if !blocked {
@@ -107,7 +107,7 @@ impl<'a> Leaving<'a> {
         if exact {
             return Outcome::Right;
         }
-        // Which triangle it was the GPU does not say: any that it may have been is an excuse.
+        // The GPU does not report which triangle it was, so any possible one is an excuse.
         let faults = self.scene.near_candidates(&self.traced).into_iter();
         let faults = faults.map(|c| self.explain(c.hit.instance, c.hit.primitive));
         let faults: Vec<_> = faults.collect();
@@ -117,22 +117,22 @@ impl<'a> Leaving<'a> {
         if faults.contains(&Some(Outcome::SelfHit)) { Outcome::SelfHit } else { Outcome::Astray }
     }
 
-    /// The same ray where the triangle that it left is a hundred times as long as wide. Rounding in the
-    /// test of such a triangle may cost more than the gap, and so the ray starts higher up: a ray that passes
-    /// nearer to an edge than the start was moved may then miss it or meet it.
+    /// The same ray if the triangle it left is a hundred times as long as wide. Rounding in the test of such
+    /// a triangle may exceed the gap, so that the ray starts higher: a ray that passes closer to an edge than
+    /// the start was moved may then miss or hit it.
     pub fn of_sliver(&self) -> Option<Self> {
         let (length, width) = self.left();
         (length > 100.0 * width).then(|| Self { gap: self.gap * self.moved().max(1.0), ..*self })
     }
 
-    /// Length and width of the triangle that was left: its longest edge, and the height on that.
+    /// The length and width of the triangle that was left: its longest edge, and the height above it.
     pub fn left(&self) -> (f64, f64) {
         let [a, b, c] = *self.scene.triangle(self.own.0, self.own.1).expect("checked before");
         let length = [b - a, c - b, a - c].map(DVec3::length).into_iter().fold(0.0, f64::max);
         (length, (b - a).cross(c - a).length() / length)
     }
 
-    /// Distance by which the start was moved, in gaps.
+    /// The distance by which the start was moved, in gaps.
     pub fn moved(&self) -> f64 {
         (self.traced.origin - self.ray.origin).length() / self.gap
     }
@@ -141,7 +141,7 @@ impl<'a> Leaving<'a> {
         (hit.instance, hit.primitive)
     }
 
-    /// The first hit that is sure, at the gap's height or above, and how far off its t may be.
+    /// The first certain hit, at the gap's height or above, and the error bound of its t.
     fn must_hit(&self) -> Option<(Hit, f64)> {
         let sine = self.steepness();
         self.scene.all_hits(&self.ray).into_iter().find_map(|hit| {
@@ -149,7 +149,7 @@ impl<'a> Leaving<'a> {
             let [a, b, c] = *self.scene.triangle(hit.instance, hit.primitive)?;
             let head_on = (b - a).cross(c - a).normalize().dot(self.ray.direction).abs();
             let slack = self.gap / head_on + candidate.t_bound;
-            // The edge that decides has the largest bound for its margin; the others have no larger one.
+            // The edge that decides has the largest bound for its margin; the other bounds are not larger.
             let inside = 1.0 - candidate.graze.bound / candidate.graze.margin;
             let height = hit.t * sine * self.ray.direction.length();
             let sure = self.id(&hit) != self.own
@@ -163,7 +163,7 @@ impl<'a> Leaving<'a> {
     /// The reason why this triangle cannot be hit; `None` if it can, or nearly can.
     fn explain(&self, instance: u32, primitive: u32) -> Option<Outcome> {
         let triangle = self.scene.triangle(instance, primitive)?;
-        // The reference's f64 is good for this much.
+        // The accuracy of the reference's f64.
         let noise = self.gap * 1e-6;
         let behind = triangle.iter().all(|v| (*v - self.corner).dot(self.up) <= noise);
         if (instance, primitive) == self.own || behind {
@@ -176,19 +176,20 @@ impl<'a> Leaving<'a> {
     }
 }
 
-/// Rays that left a surface, by what became of them.
+/// The numbers of rays that left a surface, by outcome.
 #[derive(Default)]
 pub struct Tally {
     pub rays: usize,
     pub close: usize,
     pub self_hits: usize,
-    /// Passed over, or hit though exact arithmetic passes it by.
+    /// Rays that missed a surface, or hit one that exact arithmetic misses.
     pub lost: usize,
-    /// Those of the lost that left a sliver, and passed an edge nearer than they had to be moved.
+    /// Those of the lost that left a sliver, and passed an edge closer than they had to be moved.
     pub slivers: usize,
-    /// Length and width of the last of these slivers, and by how many gaps the start was moved.
+    /// The length and width of the last of these slivers, and the number of gaps by which the start was
+    /// moved.
     sliver: [f64; 3],
-    /// The first that is wrong and not excused.
+    /// The first wrong ray without an excuse.
     pub first: Option<String>,
 }
 
@@ -219,7 +220,7 @@ impl Tally {
 }
 
 impl Tally {
-    /// All of it as figures for a page.
+    /// All counts as figures for a page.
     pub fn values(&self) -> Value {
         let Self { rays, close, self_hits, lost, slivers, sliver: [length, width, moved], .. } =
             self;

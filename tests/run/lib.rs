@@ -1,4 +1,4 @@
-//! Runs samples as their users do, one process a run, and compares pictures.
+//! Runs samples like their users, one process per run, and compares pictures.
 
 #[cfg(target_os = "linux")]
 pub mod cards;
@@ -30,26 +30,26 @@ use serde_json::Value;
 #[cfg(target_os = "linux")]
 pub use spent::{Spent, spend};
 
-/// Results of a run of a sample.
+/// The results of a run of a sample.
 pub struct Run {
-    /// The last frame, the very floats that the shader wrote.
+    /// The last frame, as the floats written by the shader.
     pub picture: Picture,
     /// The report.
     pub report: Value,
 }
 
-/// Messages of a program that has panicked or crashed, or has no memory left: one line, but no refusal.
+/// The messages of a program that has panicked, crashed or run out of memory: one line, but not a refusal.
 pub const MISTAKES: [&str; 4] =
     ["this is a mistake of the program", "panicked at", "crashed (SIG", "gave up (SIG"];
 
-/// A command that runs the binary `name` in the project's root, as users have it: without a backtrace.
+/// A command that runs the binary `name` in the project's root, like a user, without a backtrace.
 pub fn command(name: &str) -> Command {
     let mut command = Command::new(program(name));
     command.current_dir(root()).env_remove("RUST_BACKTRACE");
     command
 }
 
-/// The same, for tests that send signals: under `nohup` and in a script's background they would be ignored.
+/// The same for tests that send signals: under `nohup` and in a script's background they would be ignored.
 pub fn heeding(name: &str) -> Command {
     let mut command = Command::new("env");
     command.arg("--default-signal=INT,TERM,HUP").arg(program(name)).current_dir(root());
@@ -57,7 +57,7 @@ pub fn heeding(name: &str) -> Command {
     command
 }
 
-/// Path of the binary `name`, built from today's sources.
+/// The path of the binary `name`, built from the current sources.
 pub fn program(name: &str) -> PathBuf {
     #[cfg(unix)]
     tally::keep();
@@ -67,12 +67,12 @@ pub fn program(name: &str) -> PathBuf {
     }
     static BUILT: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
-    // This test lies in target/debug/deps.
+    // This test is in target/debug/deps.
     let test = std::env::current_exe().expect("a test has a file");
     let folder = test.parent().and_then(Path::parent).expect("it lies in a folder of Cargo's");
     let file = folder.join(name).with_extension(std::env::consts::EXE_EXTENSION);
-    // `cargo test` builds all programs before it runs a test. To ask Cargo for one of them alone would compile
-    // dependencies anew, without what tests ask of them.
+    // `cargo test` builds all programs before it runs a test. Building one of them alone would recompile
+    // dependencies, without the features enabled by tests.
     if !built.contains(name) && !is_current(&file, name) {
         let profile = match folder.file_name() {
             Some(debug) if debug == "debug" => "dev",
@@ -88,9 +88,9 @@ pub fn program(name: &str) -> PathBuf {
     file
 }
 
-/// Tests whether a program exists, and is no older than its possible sources.
+/// Returns whether a program exists, and is no older than its possible sources.
 ///
-/// Cargo's own list of that is written beside a program by `cargo build` alone.
+/// Only `cargo build` writes Cargo's own list of sources next to a program.
 fn is_current(program: &Path, name: &str) -> bool {
     let modified = |path: &Path| std::fs::metadata(path).and_then(|file| file.modified()).ok();
     let own = root().join("samples").join(name);
@@ -112,12 +112,12 @@ fn is_current(program: &Path, name: &str) -> bool {
     })
 }
 
-/// Renders headless under validation; a failure or a message is a failed test.
+/// Renders headless under validation; a failure or a message fails the test.
 pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
     render_by(&mut command(name), size, arguments)
 }
 
-/// The same by a command that may have another environment.
+/// The same with a command that may have another environment.
 pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
@@ -136,8 +136,9 @@ pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     Run { picture: Picture::open_exr(&out).expect("the picture is an EXR"), report }
 }
 
-/// Results of a shader of the book, one per pixel: the text `declarations` stands before the files of 02_basic, and
-/// `body` is the `main` of a raygen shader. That sees the pixel as `ivec2 at` and sets `vec4 answer`.
+/// The results of a shader of the book, one per pixel: the text `declarations` comes before the files of
+/// 02_basic, and `body` is the `main` of a raygen shader. It reads the pixel from `ivec2 at` and sets `vec4
+/// answer`.
 pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
     let folder = copy_of_shaders();
     let text = format!(
@@ -162,7 +163,7 @@ pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
     render_by(command("02_basic").env("SHADERS", folder.path()), size, &[]).picture
 }
 
-/// A copy of the shaders, which are a reader's own if `SHADERS` names a folder, that a test may change.
+/// A copy of the shaders, or of a reader's own in the folder named by `SHADERS`, that a test may change.
 pub fn copy_of_shaders() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let shaders = std::env::var_os("SHADERS").map_or_else(|| root().join("shaders"), PathBuf::from);
@@ -177,7 +178,7 @@ pub fn shaders_with(file: &str, from: &str, to: &str) -> tempfile::TempDir {
     folder
 }
 
-/// Replaces what must stand once in a file of a copy of the shaders.
+/// Replaces a text that must occur once in a file of a copy of the shaders.
 pub fn replace_line(shaders: &Path, file: &str, from: &str, to: &str) {
     let path = shaders.join(file);
     let text = std::fs::read_to_string(&path).expect("a shader can be read");
@@ -199,11 +200,11 @@ pub fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Messages of samples where no compiler can be had for a GPU that is not there.
+/// The messages of samples if the compiler of a missing GPU is not available.
 pub const NO_COMPILER: [&str; 2] = ["(RADV), which is not installed", "stands in for no such card"];
 
-/// Estimates of a GPU family's compiler for a sample's pipelines, one row per program; `None`, and a line, where
-/// that compiler is not installed.
+/// A GPU family's estimates for a sample's pipelines, one row per program; `None`, with a message, if that
+/// compiler is not installed.
 pub fn compiled_for(name: &str, family: &str, arguments: &[&str]) -> Option<Vec<Value>> {
     let output = command(name)
         .args(["--compile-for", family, "--report", "-"])
@@ -221,12 +222,12 @@ pub fn compiled_for(name: &str, family: &str, arguments: &[&str]) -> Option<Vec<
     Some(report["compiled_for"].as_array().expect("what was compiled").clone())
 }
 
-/// Runs with arguments that are wrong and returns the exit code and the one line on standard error.
+/// Runs with wrong arguments and returns the exit code and the single line on standard error.
 pub fn refused(name: &str, arguments: &[&str]) -> (i32, String) {
     refusal(command(name).args(arguments).output().expect("the sample starts"))
 }
 
-/// The exit code and the one line on standard error of a run that must have failed.
+/// The exit code and the single line on standard error of a run that must have failed.
 pub fn refusal(output: Output) -> (i32, String) {
     let errors = String::from_utf8_lossy(&output.stderr).trim_end().to_owned();
     let code = output.status.code().unwrap_or_else(|| panic!("killed, not refused: {errors}"));
@@ -236,11 +237,11 @@ pub fn refusal(output: Output) -> (i32, String) {
     (code, errors)
 }
 
-/// Holds a picture against `tests/golden/{name}.png` by FLIP (Andersson et al. 2020).
+/// Compares a picture with `tests/golden/{name}.png` by FLIP (Andersson et al. 2020).
 ///
-/// `tolerance` is the largest mean FLIP error on the device that set it; say beside it which that is. Another
-/// device may be as far off besides as its arithmetic allows, see [`equality`]. `UPDATE=1` writes the golden; a
-/// missing one fails. What differed is kept under `target/golden`.
+/// `tolerance` is the largest mean FLIP error on the device that set it; the caller says which device that
+/// is. Another device may exceed it by as much as its arithmetic allows, see [`equality`]. `UPDATE=1` writes
+/// the golden picture; a missing one fails. Differences are written to `target/golden`.
 pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
     let Some(tolerance) = equality::golden_tolerance(name, picture, tolerance) else {
         return println!("not compared: {name} shows the errors of the device itself");
@@ -266,7 +267,7 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
     }
 }
 
-/// Tests whether the device that tests run on can be given the worst arithmetic; if not, prints a line.
+/// Returns whether the tests' device supports the worst arithmetic; prints a message if it does not.
 pub fn has_worst_arithmetic() -> bool {
     static HAS: LazyLock<bool> = LazyLock::new(|| {
         let name = |requirements| {
@@ -274,7 +275,7 @@ pub fn has_worst_arithmetic() -> bool {
             Gpu::new(&options).map(|gpu| gpu.name.clone()).ok()
         };
         let wanted = Requirements::ray_tracing();
-        // A worse device may have them; it is not the one to be tested.
+        // A device with less may support it, but it is not the one to be tested.
         device::is_software() || name(wanted.clone()) == name(wanted.float64())
     });
     if !*HAS {
@@ -285,7 +286,7 @@ pub fn has_worst_arithmetic() -> bool {
     *HAS
 }
 
-/// Tests whether the device that tests run on supports a chapter; if not, prints what it lacks.
+/// Returns whether the tests' device supports a chapter; prints the missing features if it does not.
 pub fn is_offered(chapter: &str) -> bool {
     if device::is_software() {
         return true;
@@ -299,7 +300,7 @@ pub fn is_offered(chapter: &str) -> bool {
     !lacking
 }
 
-/// Ends a test here where its device does not offer what a chapter needs; a line says so.
+/// Ends a test here, with a message, if its device lacks a chapter's requirements.
 #[macro_export]
 macro_rules! needs {
     ($chapter:expr) => {
@@ -309,7 +310,7 @@ macro_rules! needs {
     };
 }
 
-/// The chapters, in their order: the folders of `samples/` that begin with a number.
+/// The chapters, in order: the folders of `samples/` that begin with a number.
 pub fn chapters() -> Vec<String> {
     let folders = root().join("samples").read_dir().expect("samples/ can be read");
     let names = folders.map(|entry| entry.expect("an entry").file_name().into_string());
@@ -321,15 +322,15 @@ pub fn chapters() -> Vec<String> {
     names
 }
 
-/// The chapters that make their pipelines through the framework: all but 01.
+/// The chapters that create their pipelines through the framework: all except 01.
 pub fn chapters_on_the_framework() -> Vec<String> {
     let mut names = chapters();
     names.retain(|name| name != "01_foundation");
     names
 }
 
-/// The files, from the root, that differ from the last commit: of sweeps, plain tests hold one member of each
-/// kind, and all that was edited. None where there is no git.
+/// The files, from the root, that differ from the last commit: of a sweep, plain tests run one member of each
+/// kind, and everything edited. Empty without git.
 pub fn changed() -> Vec<String> {
     let output = Command::new("git").args(["status", "--porcelain"]).current_dir(root()).output();
     let text = output.map_or_else(|_| Vec::new(), |output| output.stdout);
@@ -342,7 +343,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("tests/run lies in it").into()
 }
 
-/// Bits of a picture, for comparisons that allow no difference.
+/// The bits of a picture, for exact comparisons.
 pub fn bits(picture: &Picture) -> Vec<[u32; 4]> {
     picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
 }

@@ -1,8 +1,7 @@
 //! Charts and labelled panels for the pages.
 //!
-//! A chapter that has something to draw does it in tests that are ignored unless asked for: there the
-//! program is built, its pictures can be read, and the CPU's copy of the mathematics is at hand; and
-//! whoever only runs a sample need not build a plotting library.
+//! A chapter draws in tests that are ignored by default: they have the built program, its pictures and the
+//! CPU's copy of the mathematics, and a user who only runs a sample need not build a plotting library.
 
 use std::fs;
 use std::ops::Range;
@@ -18,8 +17,8 @@ use plotters::style::{FontStyle, register_font};
 
 use super::root;
 
-/// Colours that the colour-blind can tell apart (Okabe and Ito 2008), two of them darker: all stand
-/// out on white. `drawings::INKS` has what each is by dark.
+/// Colours that the colour-blind can tell apart (Okabe and Ito 2008), two of them darker, so that all have
+/// contrast on white. `drawings::INKS` has the dark scheme.
 const COLORS: [RGBColor; 5] = [
     RGBColor(60, 60, 60),
     RGBColor(200, 122, 0),
@@ -30,10 +29,10 @@ const COLORS: [RGBColor; 5] = [
 const GRID: RGBColor = RGBColor(225, 225, 225);
 /// A line from a dot to its name.
 const LEADER: RGBColor = RGBColor(140, 140, 140);
-/// The font of the names of dots.
+/// The font for the names of dots.
 const SMALL: (&str, i32) = ("sans-serif", 15);
 
-/// A chart: two axes and what is drawn between them.
+/// A chart: two axes and the series drawn between them.
 pub struct Chart<'a> {
     pub title: &'a str,
     pub x: Axis<'a>,
@@ -49,12 +48,12 @@ pub struct Axis<'a> {
     pub logarithmic: bool,
 }
 
-/// Points that belong together; those without a name are not in the legend.
+/// Points of one series; a series without a name is not in the legend.
 #[derive(Default)]
 pub struct Series<'a> {
     pub name: &'a str,
     pub points: Vec<[f64; 2]>,
-    /// Labels of the points, where each has a name of its own.
+    /// Labels of the points, if each has its own name.
     pub names: Vec<&'a str>,
     pub line: bool,
     pub dots: bool,
@@ -99,7 +98,7 @@ pub fn file(name: &str) -> PathBuf {
 /// Draws charts side by side, each `width` by `height`, into an SVG in `docs/images`.
 pub fn draw(name: &str, (width, height): (u32, u32), charts: &[Chart]) {
     let path = file(name);
-    // An SVG holds text, but where that ends only a font can say.
+    // An SVG contains text, but its width is only known from a font.
     register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
         .unwrap_or_else(|_| panic!("the font of the panel is no font"));
     let area = SVGBackend::new(&path, (width * charts.len() as u32, height)).into_drawing_area();
@@ -125,7 +124,7 @@ fn draw_one<'a>(
     let font = ("sans-serif", 15);
     let mut context = ChartBuilder::on(area)
         .margin(12)
-        // Half of the last number stands beyond the axis.
+        // Half of the last number extends beyond the axis.
         .margin_right(24)
         .caption(title, ("sans-serif", 17))
         .x_label_area_size(if x.label.is_empty() { 24 } else { 42 })
@@ -177,7 +176,7 @@ fn draw_one<'a>(
     Ok(())
 }
 
-/// The corner where the legend hides no point, if it must not stand in the upper right one.
+/// The corner where the legend hides no point, preferably the upper right one.
 fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
     let part = |axis: &Axis, value: f64| {
         let Range { start, end } = axis.range();
@@ -196,8 +195,8 @@ fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
     }
 }
 
-/// The left top corners of names beside their dots, none over a dot or another name or outside of `area` while
-/// there is room: the farther from its dot, the later a place is tried.
+/// The top left corners of names near their dots, not covering a dot or another name and inside `area` if
+/// there is room; places close to the dot are tried first.
 fn beside(dots: &[(i32, i32)], names: &[&str], area: (Range<i32>, Range<i32>)) -> Vec<(i32, i32)> {
     let font = FontDesc::from(SMALL);
     let mut taken: Vec<[i32; 4]> = dots.iter().map(|(x, y)| [x - 4, y - 4, x + 4, y + 4]).collect();
@@ -229,14 +228,14 @@ fn beside(dots: &[(i32, i32)], names: &[&str], area: (Range<i32>, Range<i32>)) -
                 && !taken.iter().any(|b| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom)
         };
         let corner = places.clone().find(free).unwrap_or((x + 7, y - height / 2));
-        // A little more, lest two names read as one.
+        // A little more, so that two names do not run together.
         taken.push([corner.0 - 6, corner.1, corner.0 + width + 6, corner.1 + height]);
         corners.push(corner);
     }
     corners
 }
 
-/// The place of a box that is nearest to a point, and whether it is so far away that a line should lead there.
+/// The place of a box closest to a point, and whether it is far enough away to need a line.
 fn leader((x, y): (i32, i32), (left, top): (i32, i32), name: &str) -> Option<(i32, i32)> {
     let (width, height) = FontDesc::from(SMALL).box_size(name).ok()?;
     let near = (x.clamp(left - 2, left + width as i32 + 2), y.clamp(top, top + height as i32));
@@ -248,7 +247,7 @@ fn leader((x, y): (i32, i32), (left, top): (i32, i32), name: &str) -> Option<(i3
 pub struct Shown<'a> {
     pub label: String,
     pub picture: &'a Picture,
-    /// Left, top, width and height in pixels: the same width and height for all that are drawn together.
+    /// Left, top, width and height in pixels: the same width and height for all pictures drawn together.
     pub area: [u32; 4],
 }
 

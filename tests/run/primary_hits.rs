@@ -1,4 +1,4 @@
-//! A scene as the reference sees it, and the judgement on a whole picture of hits.
+//! The reference's copy of a scene, and the judgement of a whole picture of hits.
 
 use std::fmt;
 
@@ -42,25 +42,25 @@ pub fn answer(pixel: &[f32; 4]) -> Option<Answer> {
     (instance >= 0.0).then_some(hit)
 }
 
-/// Number of rays by outcome.
+/// The numbers of rays, by outcome.
 #[derive(Default)]
 pub struct Tally {
-    /// The exact answer.
+    /// Rays with the exact answer.
     pub agree: usize,
-    /// Another triangle at the same distance, within the bounds.
+    /// Rays with another triangle at the same distance, within the bounds.
     pub ties: usize,
-    /// Explained by an edge grazed within its bound.
+    /// Rays that graze an edge within its bound.
     pub grazes: usize,
-    /// Explained by nothing.
+    /// Rays without an explanation.
     pub wrong: usize,
     /// The first of those.
     pub first_wrong: Option<String>,
-    /// Error of each hit's t against f64, in units of the last place.
+    /// The error of each hit's t compared with f64, in units of the last place.
     pub ulp_errors: Vec<f64>,
 }
 
 impl Tally {
-    /// The errors' median, what 99 of 100 are below, and the largest.
+    /// The errors' median, 99th percentile and maximum.
     fn errors(&self) -> [f64; 3] {
         let mut errors = self.ulp_errors.clone();
         errors.sort_by(f64::total_cmp);
@@ -68,7 +68,7 @@ impl Tally {
         [at(0.5), at(0.99), errors.last().copied()].map(Option::unwrap_or_default)
     }
 
-    /// All of it as figures for a page.
+    /// All counts as figures for a page.
     pub fn values(&self) -> Value {
         let Self { agree, ties, grazes, wrong, .. } = self;
         let [half, most, worst] = self.errors();

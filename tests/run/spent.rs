@@ -1,4 +1,4 @@
-//! The memory and the time that a run took.
+//! The memory and the time of a run.
 
 use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
@@ -13,14 +13,14 @@ pub struct Spent {
     pub output: Output,
     /// Its largest resident set, in bytes.
     pub memory: u64,
-    /// Time that processors worked for it. Other programs do not change that much.
+    /// Its processor time, which other programs hardly affect.
     pub time: Duration,
 }
 
 /// Runs a command to its end.
 pub fn spend(command: &mut Command) -> Spent {
     let command = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
-    // It is waited for below, by the call that also tells what it has used.
+    // Reaped below, by the call that also returns its resource usage.
     #[allow(clippy::zombie_processes)]
     let mut child = command.spawn().expect("the program starts");
     let mut stderr = Vec::new();
@@ -34,7 +34,7 @@ pub fn spend(command: &mut Command) -> Spent {
     let mut status = 0;
     // SAFETY: all zeros is a value of this structure of numbers.
     let mut usage: libc::rusage = unsafe { std::mem::zeroed() };
-    // SAFETY: the child is this process's own, and nobody else has waited for it.
+    // SAFETY: the child belongs to this process, and no other code has waited for it.
     let waited = unsafe { libc::wait4(child.id() as i32, &mut status, 0, &mut usage) };
     assert_eq!(waited, child.id() as i32, "the child is waited for");
     let status = ExitStatus::from_raw(status);
@@ -48,12 +48,12 @@ pub fn spend(command: &mut Command) -> Spent {
     }
 }
 
-/// The largest resident set of a process, in bytes, asked for each millisecond until the other end is dropped. `wait4`
-/// knows one, too, but that begins with the largest of the process that started it.
+/// The largest resident set of a process, in bytes, polled every millisecond until the other end is dropped.
+/// `wait4` also reports one, but that begins with the largest of the parent process.
 fn largest(process: u32, end: &mpsc::Receiver<()>) -> u64 {
     let mut most = 0;
     loop {
-        // The kernel's own maximum: what lies between two looks is not lost.
+        // The kernel's own maximum, so that nothing between two polls is lost.
         let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse().ok());

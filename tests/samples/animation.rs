@@ -1,5 +1,5 @@
-//! 14_animation: frames are the same bytes whichever way they are reached, what moves is where it is said to be, and
-//! the game that is played is one by the rules.
+//! 14_animation: a frame is the same bytes however it is reached, moving objects are where their formulas
+//! place them, and the game obeys the rules.
 
 mod cloth;
 mod decay;
@@ -44,12 +44,13 @@ fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// The opera game, as the sample plays it.
+/// The opera game, as played by the sample.
 fn opera() -> Motion {
     legs::open(&assets().join("games/opera.legs")).unwrap()
 }
 
-/// Every way to frame 934: played, stepped, jumped to; built, updated from far and from near.
+/// Every way to reach frame 934: played, stepped, jumped to; built, updated from a near and from a distant
+/// frame.
 #[test]
 fn a_frame_is_the_same_bytes_whichever_way_it_was_reached() {
     every_way_leads_to_the_frame(&["show=hit"]);
@@ -67,13 +68,13 @@ fn every_way_leads_to_the_frame(views: &[&str]) {
         let other = chapter().sets(&[show, "frame=930"]).picture();
         assert!(bits(&jumped) != bits(&other), "{show}: nothing moves");
         for (arguments, sets) in [
-            // Played, over a frame at which both levels are built (920 is 115 times 8).
+            // Played, past a frame at which both levels are built (920 is 115 times 8).
             (&["--frames", "20"][..], &["frame=915", "build every=8"][..]),
             (&["--frames", "20"], &["frame=915", "flag=rebuilt", "top level=rebuilt"]),
             (&["--frames", "5"], &["frame=930", "flag=updated", "top level=rebuilt"]),
-            // Paused there.
+            // Paused at this frame.
             (&["--frames", "3"], &["frame=934", "play=off"]),
-            // Built at this frame, at the one before, and at the very first.
+            // Built at this frame, at the previous one, and at the very first.
             (&[], &["frame=934", "build every=1"]),
             (&[], &["frame=934", "build every=933"]),
             (&[], &["frame=934", "build every=3600"]),
@@ -91,13 +92,13 @@ fn every_way_leads_to_the_frame(views: &[&str]) {
 fn the_first_frames_are_played_as_they_are_jumped_to() {
     let played = bits(&chapter().frames(70).sets(&["build every=32"]).picture());
     assert!(played == bits(&chapter().sets(&["frame=69"]).picture()));
-    // Playing ends with the last frame, however many are asked for.
+    // Playing stops at the last frame, however many are requested.
     let last = opera().last;
     let ended = chapter().frames(6).sets(&[format!("frame={}", last - 2)]).picture();
     assert!(bits(&ended) == bits(&chapter().set("frame", last).picture()));
 }
 
-/// All that a frame shows, with each instance's record, in the order of the sample's.
+/// Everything visible in a frame, with each instance's record, in the sample's order.
 fn exact(frame: u32) -> (reference::scene::Scene, Vec<usize>) {
     let mut model: Model = obj::load(&assets().join("chess.obj")).unwrap();
     model.meshes.extend([turned::table(9.6, 0), pole::pole(6.4, 0), cloth::mesh(frame, 48)]);
@@ -135,8 +136,8 @@ fn camera() -> Camera {
     Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.35, -0.6), 38.5)
 }
 
-/// Pieces on their way, a knight in the air, and the flag, against the exact answer in 64 bits: the pieces by their
-/// legs, the cloth from its formula.
+/// Pieces in motion, a knight in the air, and the flag, compared with exact answers in 64 bits: the pieces
+/// from their legs, the cloth from its formula.
 #[test]
 fn everything_is_where_its_formula_says() {
     let mut largest = 0f64;
@@ -150,7 +151,7 @@ fn everything_is_where_its_formula_says() {
             let found = answer(pixel).map(|hit| (hit.instance as usize, hit.primitive, hit.t));
             let is_right = |hit: &Hit| {
                 let record = records[hit.instance as usize];
-                // The cloth's corners come from sines: llvmpipe's are near enough for this.
+                // The cloth's corners come from sines; llvmpipe's are accurate enough for this.
                 let near = if record == 19 {
                     |t: f32, exact: f64| (f64::from(t) - exact).abs() < 1e-5 * exact
                 } else {
@@ -182,8 +183,8 @@ fn everything_is_where_its_formula_says() {
     expected::hold("14_animation/cloth", json!({ "largest": hundred_millionths / 1e8 }));
 }
 
-/// Tests whether a ray with another hit than the exact one passes so near an edge that it may: its hit is a
-/// candidate within the bounds, or it is on the flag, whose corners are rounded otherwise here.
+/// Returns whether a ray whose hit differs from the exact one passes close enough to an edge: its hit is a
+/// candidate within the bounds, or it is on the flag, whose corners are rounded differently here.
 fn is_at_an_edge(
     exact: &reference::scene::Scene,
     ray: &Ray,

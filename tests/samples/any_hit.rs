@@ -1,4 +1,4 @@
-//! 03_any_hit: cut-outs, transparency that no order can change, and the list of every hit.
+//! 03_any_hit: cut-outs, order-independent transparency, and the list of all hits.
 
 use std::sync::Arc;
 
@@ -23,10 +23,10 @@ fn directions() -> Arc<Picture> {
     Chapter::new(NAME).size(SIZE).sets(&["mode=opaque", "show=ray direction"]).shared_picture()
 }
 
-/// Pixels whose hits differ: those at the same distance, and the others.
+/// The numbers of pixels whose hits differ: those at the same distance, and the others.
 ///
-/// A piece's foot lies in the plane of the board, and each is hit at a distance that is rounded. Two
-/// distances are the same if they differ by no more than the two bounds on their errors.
+/// A piece's foot is in the plane of the board, and both are hit at rounded distances. Two distances count as
+/// equal if they differ by no more than the sum of the bounds on their errors.
 fn differences(a: &Picture, b: &Picture) -> (usize, usize) {
     let scene = Scene::chess().unwrap();
     let exact = reference(&scene);
@@ -68,7 +68,7 @@ fn a_ray_through_a_cut_out_sees_what_is_behind() {
         }
         let hit = exact.closest_hit(&ray, |_| true).expect("the reference sees the screen");
         let alpha = alpha_at(&scene.model, screen, hit.primitive, hit.barycentrics.as_vec2());
-        // Texture filtering has a few bits of its own; beside the threshold either answer is right.
+        // Texture filtering has limited precision; near the threshold either answer is right.
         if (alpha - 0.5).abs() < 0.02 {
             continue;
         }
@@ -84,7 +84,7 @@ fn a_ray_through_a_cut_out_sees_what_is_behind() {
     assert!(passed > 500 && stopped > 500, "{passed} passed, {stopped} stopped");
 }
 
-/// The alpha of a mesh's texture at a hit, filtered linearly, repeated beyond the edge.
+/// The alpha of a mesh's texture at a hit, filtered linearly and repeated beyond the edge.
 fn alpha_at(model: &Model, mesh: usize, triangle: u32, weights: glam::Vec2) -> f32 {
     let mesh = &model.meshes[mesh];
     let [a, b, c] = mesh.triangles[triangle as usize].map(|i| mesh.vertices[i as usize].uv);
@@ -110,7 +110,7 @@ fn transparency_at_random_does_not_depend_on_the_order() {
     println!("{ties} ties");
     let pixels = ordered.pixels.len();
     assert_eq!(others, 0, "pixels that differ though their distances do");
-    // The feet of the pieces lie in the plane of the board: those ties are there, and no more.
+    // The feet of the pieces are in the plane of the board: those ties are expected, and no others.
     assert!(ties < pixels / 50, "{ties} ties");
     expected::hold("03_any_hit/ties", json!({ "ties": ties, "pixels": pixels }));
 }
@@ -121,8 +121,8 @@ fn the_naive_way_does_depend_on_the_order() {
     let unordered = hits(&["--set", "mode=naive random", "--unordered"]);
     let (_, others) = differences(&ordered, &unordered);
     println!("{others} pixels differ");
-    // The order of the candidates is the driver's choice. Mesa 25.0.7 keeps that of the build; with 26.2.6
-    // both builds answer the same.
+    // The order of candidates is up to the driver. Mesa 25.0.7 preserves that of the build; with 26.2.6 both
+    // builds give the same answers.
     if expected::are_of_this_driver("03_any_hit/ties") {
         assert!(others > ordered.pixels.len() / 100, "only {others} pixels differ");
     }
@@ -192,7 +192,7 @@ fn lists_are_the_reference_s(settings: &[&str]) {
 
 type Listed = (u32, u32, f32);
 
-/// Each ray's list, read layer by layer, and the rays.
+/// The list of each ray, read layer by layer, and the rays.
 fn listed(no_duplicates: &str) -> (Vec<Vec<Listed>>, Vec<Ray>) {
     const SMALL: &str = "80x50";
     let run = |more: &[&str]| {

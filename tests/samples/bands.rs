@@ -1,4 +1,4 @@
-//! A picture in many bands of rows is the picture in few, to the bit.
+//! A picture in many bands of rows equals the picture in few, bit for bit.
 
 use run::{Chapter, bits};
 
@@ -42,8 +42,8 @@ fn and_in_every_chapter() {
 }
 
 fn hold(choices: &[Choice]) {
-    // What a first frame costs is not known before: its first band is one row. The second frame is its like,
-    // and so small that on any but the busiest machine it is one band.
+    // The cost of a first frame is unknown, so its first band is one row. The second frame is known to cost
+    // the same, and is so small that it is one band unless the machine is very busy.
     for &(name, sets) in choices.iter().filter(|(name, _)| run::is_offered(name)) {
         let [many, few] =
             [1, 2].map(|frames| Chapter::new(name).size("40x24").sets(sets).frames(frames).run());

@@ -1,4 +1,4 @@
-//! 02_basic: the picture, and primary visibility held to the reference pixel by pixel.
+//! 02_basic: the picture, and primary visibility compared with the reference pixel by pixel.
 
 use common::scene::Scene;
 use serde_json::json;
@@ -24,9 +24,9 @@ fn every_hit_agrees_with_the_reference() {
     println!("{tally}");
     expected::hold("02_basic/hits", tally.values());
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
-    // Edges are thin: where more than one ray in five hundred needs an excuse, something is wrong.
+    // Edges are thin: if more than one ray in five hundred needs an excuse, something is wrong.
     assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally}");
-    // The scene is no empty sky: most rays must have met something.
+    // A check that the scene is not an empty sky: most rays must hit something.
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
 }
 
@@ -37,7 +37,7 @@ fn pieces_are_instances_of_few_meshes() {
     assert_eq!(scene.model.meshes.len(), 11);
 }
 
-/// Time of a frame with its triangles in order, over that with its triangles as they come.
+/// The time of a frame with sorted triangles relative to one with triangles in the file's order.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_order_of_the_triangles_in_time() {

@@ -1,4 +1,4 @@
-//! 13_callable_shader: one picture, however its code was chosen; patterns that the CPU has too.
+//! 13_callable_shader: one picture for every way to choose its code, and patterns compared with the CPU's.
 
 mod patterns;
 
@@ -53,7 +53,7 @@ fn patterns_have_the_same_bits_on_the_host_near_and_far() {
     assert!(seen.iter().all(|&count| count > 1000), "{seen:?} pixels of marble, wood, checker");
 }
 
-/// A pattern moved by whole cells is the same pattern elsewhere; moved by adding to a float it is a blur.
+/// A pattern moved by whole cells is the same pattern elsewhere; moved by adding to a float, it is blurred.
 #[test]
 fn whole_cells_keep_the_digits_that_a_sum_of_floats_loses() {
     let mut table = Map::new();
@@ -84,7 +84,7 @@ fn a_pipeline_with_callables_is_many_programs_and_one_without_is_one() {
         println!("{choose}: {} programs", programs.len());
         assert_eq!(programs.len() > 1, several, "{choose}: {programs:?}");
         for program in programs {
-            // Around calls Mesa 26 spills in raygen, where Mesa 25 does not.
+            // Around calls, Mesa 26 spills registers in raygen, and Mesa 25 does not.
             let spills = several && !program["compiler"].as_str().unwrap().contains("Mesa 25.");
             assert!(spills || program["spilled_registers"] == 0, "{choose}: {program}");
         }

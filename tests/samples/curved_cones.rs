@@ -1,5 +1,5 @@
-//! 40_curved_cones: what a curved mirror and a lens make of a cone, held to rays, and how far each way to carry it is
-//! from 1,024 rays a pixel.
+//! 40_curved_cones: the cone behind a curved mirror and a lens, compared with rays, and the difference of
+//! each way to carry it from 1,024 rays per pixel.
 
 mod hard;
 mod measured;
@@ -24,7 +24,7 @@ fn the_picture_repeats() {
     Chapter::new(NAME).repeats();
 }
 
-/// A field of a type that does not exist stops the pipelines that carry it, and no others.
+/// A field of an unknown type breaks exactly the pipelines that carry it.
 #[test]
 fn a_payload_carries_the_cone_or_the_neighbours_and_never_both() {
     a_payload_carries_what_its_footprint_reads(&FOOTPRINTS[2..]);
@@ -57,7 +57,7 @@ fn a_payload_carries_what_its_footprint_reads(footprints: &[&str]) {
     }
 }
 
-/// The bare floor, with mirrors and glass out of sight.
+/// The bare floor, with mirrors and glass out of view.
 #[test]
 fn without_a_curved_surface_in_view_it_is_19_to_the_bit() {
     let from = ["camera eye=700,3,-40", "camera target=720,0,-60", "show=color"];

@@ -1,4 +1,4 @@
-//! 28_depth_of_field: where on the lens rays start, where they meet, and how much is blurred outside the focus.
+//! 28_depth_of_field: where rays start on the lens, where they meet, and the blur outside the focus.
 
 mod aperture;
 mod circle;
@@ -16,9 +16,9 @@ const NAME: &str = "28_depth_of_field";
 const SIZE: &str = "240x150";
 /// Enough pixels for many points, few enough for many frames.
 const SMALL: &str = "64x40";
-/// At the origin, looking along -z: a ray's origin is its place on the lens.
+/// At the origin, looking along -z: a ray's origin is its point on the lens.
 const AT_ORIGIN: [&str; 2] = ["camera eye=0,0,0", "camera target=0,0,-1"];
-/// A model that every chapter shows alike.
+/// A model that looks the same in every chapter.
 const MODEL: &str = "samples/assets/chess.obj";
 
 fn chapter(size: &str) -> Chapter {
@@ -60,7 +60,7 @@ fn a_lens_of_size_0_gives_the_picture_of_37() {
     for show in ["show=hit", "show=ray direction"] {
         same_answers(show, NAME, &lens(&[show], &few), &pinhole(&[show], &few));
     }
-    // A lens that has a size gives another, or nothing was compared.
+    // A lens with a size gives another picture; otherwise the comparison would be vacuous.
     let wide = lens(&["lens diameter=0.2"], &few);
     assert_ne!(bits(&wide), bits(&picture), "the lens does nothing");
 }

@@ -1,4 +1,4 @@
-//! 42_distant_spheres: the benefit of each rung and of the margin, against exact arithmetic.
+//! 42_distant_spheres: the benefit of each rung and of the margin, compared with exact arithmetic.
 
 mod errors;
 mod plots;
@@ -32,7 +32,7 @@ fn reference(scene: SceneKind, count: u32) -> ReferenceShapes {
     ReferenceShapes::new(|model, pieces| scenes::shapes(scene, count, model, pieces))
 }
 
-/// Compares every seventh ray of a scene with many shapes with the exact nearest hit.
+/// Compares every seventh ray of a scene of many shapes with the exact nearest hit.
 fn every_hit_agrees(scene: SceneKind, count: u32, sets: &[&str]) {
     let exact = reference(scene, count);
     let camera = scenes::camera(scene, Camera::default(), count, 0.0);

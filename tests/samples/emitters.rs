@@ -1,4 +1,4 @@
-//! 29_emitters: three ways to find the light of what shines agree with each other, and with closed forms.
+//! 29_emitters: three estimators of the light from emitters agree with each other and with closed forms.
 
 mod caught;
 mod choosing;
@@ -25,14 +25,14 @@ fn estimator(name: &str) -> String {
     format!("estimator={name}")
 }
 
-/// One number a pixel: the mean of its colours.
+/// One number per pixel: the mean of its colours.
 fn brightness(picture: &Picture) -> Vec<f64> {
     let mean = |pixel: &[f32; 4]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
     picture.pixels.iter().map(mean).collect()
 }
 
-/// The mean of independent values, and how far it may be off by chance: four standard errors, which chance
-/// exceeds once in 16,000 times.
+/// The mean of independent values, and its confidence interval: four standard errors, which are exceeded at
+/// random once in 16,000 times.
 struct Estimate {
     mean: f64,
     deviation: f64,
@@ -61,7 +61,7 @@ fn the_picture_repeats() {
     Chapter::new(NAME).frames(8).repeats();
 }
 
-/// Surfaces of all kinds, mirrors among them, lit by spheres and by a mesh.
+/// Surfaces of all kinds, including mirrors, lit by spheres and by a mesh.
 #[test]
 #[ignore = "nightly: 256 samples a pixel, three times; quick: emitters::closed_forms::a_ball_lights_a_plane_as_its_closed_form_says"]
 fn three_estimators_make_one_picture() {
@@ -75,7 +75,7 @@ fn three_estimators_make_one_picture() {
         let differences: Vec<f64> = mis.iter().zip(other).map(|(mis, other)| mis - other).collect();
         let estimate = Estimate::of(&differences);
         estimate.is(0.0, &format!("MIS - {name}"));
-        // It would be seen if light were counted twice, or a tenth of it not at all.
+        // The test would detect light that is counted twice, or a tenth of it that is missing.
         assert!(estimate.confidence < 0.1 * whole, "{name}: {} of {whole}", estimate.confidence);
         held.insert(format!("{name}.off"), json!((estimate.mean / whole).abs()));
         held.insert(format!("{name}.confidence"), json!(estimate.confidence / whole));
@@ -100,17 +100,18 @@ fn one_emitter_all_and_those_by_power_make_one_picture() {
     }
 }
 
-/// The eye sees the emission itself, and there is no bounce: no light is sampled, so no number is random.
+/// The eye sees the emission directly, and there is no bounce: no light is sampled, so nothing is random.
 #[test]
 fn what_is_seen_straight_is_the_same_by_all() {
     let of =
         |name| chapter("64x40").frames(2).sets(&[&estimator(name)]).sets(&["depth=0"]).picture();
     let [first, others @ ..] = ESTIMATORS.map(of);
-    // The nearest hit decides, as in 02.
+    // Only the nearest hit matters, as in 02.
     others.iter().for_each(|other| same_colors("seen straight", "02", &first, other));
 }
 
-/// A sample of each estimator: the brightest pixel, and how many are ten times as bright as the mean.
+/// One sample of each estimator: the brightest pixel, and the number of pixels ten times as bright as the
+/// mean.
 #[test]
 fn fireflies_are_those_of_chance_and_of_area() {
     let mut held = Map::new();
@@ -129,7 +130,7 @@ fn fireflies_are_those_of_chance_and_of_area() {
         held.insert(format!("{name}.brightest"), most.into());
         brightest.push(most);
     }
-    // A white surface beside an emitter of 1 is 1/2 at most; by area, one point may count for any multiple.
+    // A white surface near an emitter of 1 is 1/2 at most; sampling by area, one point may have any weight.
     assert!(brightest[1] > 2.0 && brightest[2] < 1.01 && brightest[3] < 1.01, "{brightest:?}");
     expected::hold("29_emitters/fireflies", held.into());
 }
@@ -158,7 +159,7 @@ fn light_that_is_cut_and_merged_is_the_light_in_one_piece() {
     let parts = [part("0..5", "a"), part("5..6", "b"), part("6..12", "c")];
     let merged = merge(&parts.each_ref().map(|path| path.as_path())).expect("they fit");
     assert_eq!(merged.bytes().expect("they can be written"), whole);
-    // One file that goes on, and not in the order of the samples.
+    // A single file that is continued, and samples out of order.
     ["7..9", "0..3", "0..12"].into_iter().for_each(|samples| drop(part(samples, "one")));
     assert_eq!(std::fs::read(folder.path().join("one")).unwrap(), whole);
 }

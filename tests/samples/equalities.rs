@@ -1,9 +1,9 @@
-//! Pictures that are equal on the software driver though Vulkan does not promise it.
+//! Pictures that are equal on the software driver although Vulkan does not promise it.
 //!
-//! Equal results are promised of *identical* pipelines alone (specification, appendix Invariance, rules 4 and 7).
-//! So each equality of two others fails to the bit where every pipeline computes as inexactly as it may, each in
-//! its own way (`ARITHMETIC_SEED`), where builds are shuffled and any-hit shaders called twice; and each keeps
-//! within the bound that other devices are held to.
+//! Vulkan promises equal results only for *identical* pipelines (specification, appendix Invariance, rules 4
+//! and 7). The test makes every pipeline compute as inexactly as it may, each in its own way
+//! (`ARITHMETIC_SEED`), shuffles builds, and calls any-hit shaders twice. Each equality then fails bit for
+//! bit, but stays within the bound used for other devices.
 
 use common::app::Picture;
 use run::equality::{flipped, ties};
@@ -13,14 +13,14 @@ const SIZE: &str = "96x60";
 /// A model that two chapters show alike.
 const CHESS: &str = "--scene=samples/assets/chess.obj";
 
-/// Two ways to one picture.
+/// Two ways to render one picture.
 struct Equality {
     what: &'static str,
     one: (&'static str, &'static [&'static str]),
     other: (&'static str, &'static [&'static str]),
-    /// True if the pictures show answers, not colours.
+    /// True if the pictures show data, not colours.
     shows_answers: bool,
-    /// True if plain tests try it: its pipelines compile quickly.
+    /// True if plain tests include it: its pipelines compile quickly.
     is_quick: bool,
 }
 
@@ -129,7 +129,7 @@ fn picture((chapter, sets): (&str, &[&str]), seed: u32) -> Picture {
     run.picture
 }
 
-/// Tests whether the bits of both pictures differ with this seed, within the bound.
+/// Returns whether both pictures differ with this seed, within the bound.
 fn differs(equality: &Equality, seed: u32) -> bool {
     let Equality { what, one, other, shows_answers, .. } = equality;
     let near = Near::of(one.0).both();
@@ -145,9 +145,9 @@ fn differs(equality: &Equality, seed: u32) -> bool {
     pixels > 0
 }
 
-/// A ray along the board's middle goes through edges that triangles share. Either may be hit (specification,
-/// Ray Traversal, Watertightness: one of them is), and which one it is changes with the order of a build: candidates
-/// come in none (Ray Intersection Candidate Determination).
+/// A ray along the board's middle goes through edges shared by triangles. It may hit either of them
+/// (specification, Ray Traversal, Watertightness: it hits one), and which one changes with the order of a
+/// build, because candidates come in no particular order (Ray Intersection Candidate Determination).
 #[test]
 fn at_a_shared_edge_either_triangle_answers() {
     for height in [1, 3, 8] {
@@ -160,7 +160,7 @@ fn at_a_shared_edge_either_triangle_answers() {
         let (ties, others) = ties(&one, &other);
         println!("from {height}: {ties} ties");
         assert_eq!(others, 0, "from {height}, of {ties} ties");
-        // Mesa 25.0.7 keeps the order of the build; with 26.2.6 both builds answer the same.
+        // Mesa 25.0.7 preserves the order of the build; with 26.2.6 both builds give the same answers.
         if expected::are_of_this_driver("03_any_hit/ties") {
             assert!(bits(&one) != bits(&other) && ties > 10, "from {height}: {ties} ties");
         }
@@ -195,7 +195,7 @@ fn what_is_beyond_the_bounds_is_found() {
     let plain = |value| Picture { width: 96, height: 60, pixels: vec![[value; 4]; 96 * 60] };
     let near = Near::of("41_ray_offset").both();
     let flips = near.flips(&plain(0.0)) as usize;
-    // Two decisions, and for each less than two pixels.
+    // Two decisions, with less than two pixels each.
     assert_eq!(flips, 2 * 2);
     let with = |count: usize, value: f32| {
         let mut picture = plain(0.5);

@@ -1,4 +1,4 @@
-//! 39_far_from_origin: what coordinates, object rays and normals are worth far from the origin.
+//! 39_far_from_origin: the accuracy of coordinates, object rays and normals far from the origin.
 
 use glam::{DVec3, Vec3};
 use reference::transform::U;
@@ -15,13 +15,13 @@ fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// The knights where a control moves them, in world coordinates: its value, and they.
+/// The knights at a control's position, in world coordinates: the control's value, and the scene.
 fn specimens(far: f64) -> (String, ViewedScene) {
     let viewed = ViewedScene::moved_specimens(NAME, DVec3::new(far, 0.0, far));
     (format!("far={far}"), viewed)
 }
 
-/// The steps of the origin are powers of two, so that a million has no other remainder than nothing.
+/// The steps of the origin are powers of two, so that a million leaves no remainder.
 #[test]
 fn camera_relative_coordinates_are_the_same_bits_a_million_units_away() {
     let [near, far] = ["far=0", "far=1000000"].map(|far| chapter().sets(&[far]).picture());
@@ -40,7 +40,7 @@ fn so_they_do_at_four_distances() {
     expected::hold("39_far_from_origin/coordinates", table.into());
 }
 
-/// The share of pixels with another triangle, or another shadow, than near the origin.
+/// The fraction of pixels with another triangle, or another shadow, than near the origin.
 fn changed_by_distance(distances: &[&str]) -> Map<String, serde_json::Value> {
     let sets = |far: &str, coordinates: &str, show: &str| {
         chapter().sets(&[far, coordinates, show]).picture()
@@ -93,7 +93,7 @@ fn both_coordinates_side_by_side_are_the_two_pictures() {
     }
 }
 
-/// A normal knows no place: the translation is not in its matrix.
+/// Normals do not depend on the place: their matrix contains no translation.
 #[test]
 fn normals_are_as_good_far_away() {
     let (far, viewed) = specimens(1e6);
@@ -101,7 +101,7 @@ fn normals_are_as_good_far_away() {
     expected::hold("39_far_from_origin/normals", table.into());
 }
 
-/// The ray's origin in the space of each piece that was seen: error by rung, in parts of the bound of
+/// The ray's origin in the space of each visible piece: the error of each rung, relative to the bound of
 /// `L^-1·(o - T)`.
 fn origin_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> {
     let origins = chapter().sets(sets).sets(&["show=object origin"]).picture();

@@ -19,7 +19,7 @@ fn the_checker_board_is_averaged_over_each_pixel() {
         "light squares=1,1,1",
         "dark squares=0,0,0",
     ];
-    // What the plane is, how light, and how far away.
+    // The albedo of the plane, its brightness, and its distance.
     let light = |name: &str, size: &str, more: &[&str]| {
         let [hits, squares] = ["hit", "triangle"].map(|show| {
             Chapter::new(name)
@@ -70,7 +70,7 @@ fn the_checker_board_is_averaged_over_each_pixel() {
     expected::hold("43_filtered_checker/checker", found);
     assert!(count > 1000 && filtered_error < 0.06 && point_error > 4.0 * filtered_error);
     assert!(faded_error > 1.5 * filtered_error, "{faded_error}");
-    // Towards the horizon all is grey, and nothing is cut off.
+    // Towards the horizon everything is grey, and nothing is cut off.
     let horizon = filtered.iter().filter(|pixel| pixel[0] == PLANE && pixel[2] > 60.0);
     assert!(horizon.clone().count() > 40);
     assert!(horizon.clone().all(|pixel| (pixel[1] - 0.5).abs() < 0.05));
@@ -87,7 +87,7 @@ fn every_ray_meets_what_it_meets_in_12() {
 
 #[test]
 fn near_squares_are_those_of_12() {
-    // From above, where 12 does not fade them.
+    // From above, where 12 does not fade the squares.
     let sets = ["camera eye=0.3,6.1,4.2", "camera target=0.1,0,0.05", "show=triangle"];
     let model = Octahedron::out_of_sight();
     let show = |name: &str, more: &[&str]| {
@@ -95,7 +95,7 @@ fn near_squares_are_those_of_12() {
         chapter.scene(model.path()).picture().pixels
     };
     let (one, other) = (show(NAME, &["checker=point"]), show("12_infinite_plane", &[]));
-    // Rounding may send a ray that meets the border of two squares to either.
+    // A ray at the border of two squares may be rounded to either.
     let differ = one.iter().zip(&other).filter(|(a, b)| (a[0] - b[0]).abs() > 0.01).count();
     assert!(differ * 200 < one.len(), "{differ} of {} pixels", one.len());
 }

@@ -1,5 +1,5 @@
-//! 01_foundation: the picture, every pixel held to the same ray and triangle on the CPU, and what the
-//! program tells.
+//! 01_foundation: the picture, every pixel compared with the same ray and triangle on the CPU, and the
+//! program's output.
 
 use glam::DVec3;
 use serde_json::json;
@@ -9,7 +9,7 @@ use run::{bits, command, expected, refused, render};
 const NAME: &str = "01_foundation";
 const SIZE: &str = "240x150";
 
-/// Error bound of a barycentric: 32-bit rounding of the ray and of the intersection, some 1e-6 here.
+/// Error bound of a barycentric weight: 32-bit rounding of the ray and of the intersection, about 1e-6 here.
 const WEIGHT_ERROR: f64 = 1e-5;
 
 #[test]
@@ -32,7 +32,7 @@ fn every_pixel_agrees_with_the_ray_and_the_triangle_in_double_precision() {
             let weights = weights(direction);
             let margin = weights.min_element();
             let color = DVec3::new(pixel[0].into(), pixel[1].into(), pixel[2].into());
-            // No pixel's middle lies so near to an edge that rounding could decide.
+            // No pixel's middle is so close to an edge that rounding could decide.
             assert!(margin.abs() > WEIGHT_ERROR, "{size} ({x}, {y}) is {margin} from an edge");
             *if margin > 0.0 { &mut hits } else { &mut misses } += 1;
             let wanted = if margin > 0.0 { shade(weights) } else { sky(direction) };
@@ -104,7 +104,7 @@ fn wrong_arguments_are_refused() {
 
 const EYE: DVec3 = DVec3::new(0.0, 0.0, 3.0);
 
-/// The unit direction of a pixel's ray, as `camera.rgen` makes it.
+/// The unit direction of a pixel's ray, computed as in `camera.rgen`.
 fn ray(x: u32, y: u32, width: u32, height: u32) -> DVec3 {
     const HALF_HEIGHT: f64 = 0.4;
     let (width, height) = (f64::from(width), f64::from(height));
@@ -114,7 +114,7 @@ fn ray(x: u32, y: u32, width: u32, height: u32) -> DVec3 {
     DVec3::new(right, -down * HALF_HEIGHT, -1.0).normalize()
 }
 
-/// The weights of the three corners where the ray meets the triangle's plane (Cramer's rule).
+/// The weights of the three corners at the ray's intersection with the triangle's plane (Cramer's rule).
 fn weights(direction: DVec3) -> DVec3 {
     let place = |x: f64, y: f64| DVec3::new(0.8 * x + 0.12, y + 0.05, -0.6 * x);
     let [a, b, c] = [place(-1.1, -0.75), place(1.1, -0.75), place(0.0, 0.9)];

@@ -1,4 +1,4 @@
-//! 44_geometries: the record of every ray, whatever its stride; one level equals many; what each costs.
+//! 44_geometries: the record of every ray for every stride; one level equals many; the cost of each.
 
 use std::fs;
 use std::ops::Range;
@@ -27,14 +27,14 @@ const NAME: &str = "44_geometries";
 const SIZE: &str = "240x150";
 /// Records per geometry: for its look and for inspection.
 const RAY_TYPES: u32 = 2;
-/// The number in a picture that says that a ray for a look took a record for inspection.
+/// The number in a picture that marks a ray for a look that used a record for inspection.
 const INSPECTED: f32 = -2.0;
 
 fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// A run whose pieces are in so many parts; one part has no shape to set.
+/// A run whose pieces have this many parts; with one part, there is no shape to set.
 fn cut_in(chapter: Chapter, cut: &str, parts: u32) -> Chapter {
     let chapter = chapter.set("parts", parts);
     if parts > 1 { chapter.set("cut", cut) } else { chapter }
@@ -52,7 +52,7 @@ fn place(places: &[Range<usize>], instance: u32) -> &Range<usize> {
     places.iter().find(|place| place.contains(&(instance as usize))).expect("its place")
 }
 
-/// The group that an instance should take, by the number in `push.glsl`.
+/// The group an instance should use, by the number in `push.glsl`.
 fn group(scene: &Scene, instance: &Instance) -> u32 {
     let mesh = scene.model.meshes[instance.mesh].name.as_str();
     match scene.model.materials[instance.material].name.as_str() {
@@ -72,7 +72,7 @@ fn every_ray_takes_the_record_of_its_geometry() {
         let [hits, directions, geometries, groups, records] =
             ["hit", "ray direction", "geometry", "group", "record"]
                 .map(|view| chapter().set("cut", word).set("show", view).picture());
-        // The reference says which instance a ray hits, and which triangle of its mesh.
+        // The reference gives the instance a ray hits, and the triangle of its mesh.
         let answers = hits.pixels.iter().map(answer);
         let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
         assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
@@ -93,8 +93,8 @@ fn every_ray_takes_the_record_of_its_geometry() {
     }
 }
 
-/// The pictures of two builds: the same triangles at the same distances in another order. Only the index of the
-/// instance in the build differs.
+/// The pictures of two builds: the same triangles at the same distances in another order. Only the index of
+/// the instance in the build differs.
 #[test]
 fn one_level_equals_many() {
     let mut compared = 0;
@@ -145,7 +145,8 @@ fn the_stride_does_not_matter_to_levels_of_one_geometry() {
     assert!(right == bits(&view(0)) && right == bits(&view(1)));
 }
 
-/// With stride 0 a place has one look, that of its first geometry: as if its other meshes had the first one's record.
+/// With stride 0, a place has a single look, that of its first geometry, as if all its meshes used the first
+/// one's record.
 #[test]
 fn with_stride_0_black_and_white_are_red() {
     let (scene, places) = scene(Cut::Slices, 3);
@@ -216,11 +217,11 @@ fn places_are_complete_and_never_above_the_limit() {
         assert!(limited.iter().all(fits));
         let expected: usize = places.iter().map(|place| place.len().div_ceil(most)).sum();
         assert_eq!(limited.len(), expected);
-        // They follow each other without a gap.
+        // They follow each other without gaps.
         assert!(limited.windows(2).all(|pair| pair[0].end == pair[1].start));
     }
     assert!(levels::places(&mut [], 7).is_empty());
-    // Mirrored or moved by the least: another place.
+    // Mirrored, or moved by the smallest amount, it is another place.
     let at = |x: f32| Affine3A::from_translation(Vec3::new(x, 0.0, 0.0));
     let instance = |transform| Instance { mesh: 0, transform, material: 0, record_offset: 0 };
     let mut some = [at(1.0), at(1.0f32.next_up()), at(1.0)].map(instance);
@@ -236,7 +237,7 @@ fn pieces_of_the_same_parts_share_a_level() {
     };
     let ([one, places], [many, meshes]) = (numbers("one"), numbers("many"));
     let values = json!({ "one": one, "places": places, "many": many, "meshes": meshes });
-    // Six kinds of piece of three parts, the board of three, the screen of two.
+    // Six kinds of pieces of three parts, the board of three, the screen of two.
     assert_eq!([one, many], [6 + 2, 6 * 3 + 3 + 2]);
     expected::hold_exact("44_geometries/levels", values);
 }

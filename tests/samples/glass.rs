@@ -1,5 +1,5 @@
-//! 27_glass: rays and light through glass are those of closed forms, and a body that takes nothing cannot be
-//! seen in a sky that is the same everywhere.
+//! 27_glass: rays and light through glass match closed forms, and a body that absorbs nothing is invisible
+//! under a uniform sky.
 
 mod closed_forms;
 pub mod equations;
@@ -24,13 +24,13 @@ fn mean(picture: &Picture) -> f64 {
     picture.pixels.iter().map(sum).sum::<f64>() / (3 * picture.pixels.len()) as f64
 }
 
-/// Bound on the distance of a picture of so many frames from the golden one.
+/// Bound on the difference of a picture of this many frames from the golden one.
 fn tolerance(own: &Picture, frames: u32, sets: &[&str]) -> f32 {
     if expected::are_of_this_driver("27_glass/left_out") {
         return 0.002; // set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit
     }
-    // Where another driver rounds otherwise, one path of a hundred goes elsewhere at each of some twenty walls
-    // of glass, and is then as far from its own way as with other random numbers (`worst.rs`).
+    // If another driver rounds differently, one path in a hundred changes at each of about twenty walls of
+    // glass, and then differs as much as with other random numbers (`worst.rs`).
     let drawn_anew = chapter("160x100").frames(frames).sets(sets).sets(&["seed=1"]).picture();
     0.01 * 20.0 * flip(own, &drawn_anew).0
 }
@@ -44,14 +44,14 @@ fn the_picture_is_the_golden_one_and_repeats() {
 
 #[test]
 fn the_pane_is_the_golden_one() {
-    // Its upper edge lies before the sky, and below it the sky is mirrored.
+    // Its upper edge is in front of the sky, and the sky is mirrored below it.
     let pane = chapter("160x100").frames(64).sets(&["scene=pane"]).picture();
     golden("27_glass_pane", &pane, tolerance(&pane, 64, &["scene=pane"]));
 }
 
 #[test]
 fn clear_glass_cannot_be_seen_in_a_white_sky() {
-    // From outside, and from within the ball.
+    // From outside, and from inside the ball.
     let mut lost = [0.0; 2];
     for (i, (eye, target)) in [("0,0,5", "0,0,0"), ("0.3,0.1,-1.2", "0,0,0")].iter().enumerate() {
         let (eye, target) = (format!("camera eye={eye}"), format!("camera target={target}"));
@@ -59,13 +59,13 @@ fn clear_glass_cannot_be_seen_in_a_white_sky() {
             .frames(4)
             .sets(&["scene=furnace", "depth=256", &eye, &target])
             .picture();
-        // Each path brings 1, whatever ways it takes, or it is caught and brings nothing.
+        // Each path brings 1, whatever ways it takes, unless it is caught and brings nothing.
         for [r, g, b, _] in &shown.pixels {
             let paths = 4.0 * f64::from(*r);
             assert!(paths.fract() == 0.0 && paths <= 4.0 && r == g && g == b, "{r} {g} {b}");
             lost[i] += 4.0 - paths;
         }
-        // Half as many are left of them for each doubling of the depth: one in a thousand at 16.
+        // Each doubling of the depth halves their number: one in a thousand at 16.
         assert!(lost[i] <= 4.0, "{} paths are lost from {eye}", lost[i]);
     }
     expected::hold(
@@ -85,7 +85,7 @@ fn a_depth_only_takes_light_away() {
     }
 }
 
-/// Light that the deepest path brings and others miss, by the same random numbers.
+/// The light of the deepest paths that shallower ones miss, with the same random numbers.
 #[test]
 #[ignore = "nightly: gives a table of the page; quick: glass::a_depth_only_takes_light_away"]
 fn what_depth_leaves_out() {
@@ -100,8 +100,8 @@ fn what_depth_leaves_out() {
         last = missing;
         table.insert(format!("depth_{depth}"), json!(missing));
     }
-    // A path that is as long, and as bright as the clamp lets it be, is rare: none here with Mesa 25.0.7, two
-    // with 26.2.6, whose paths are others. If two are usual, one run in 4,000 has more than eight.
+    // A path that is this long, and as bright as the clamp allows, is rare: none here with Mesa 25.0.7, two
+    // with 26.2.6, whose paths differ. If two are usual, one run in 4,000 has more than eight.
     let bright_path = 20.0 / f64::from(96 * 60 * 16) / all;
     let paths = if expected::are_of_this_driver("27_glass/left_out") { 0.0 } else { 8.0 };
     assert!(last < 1e-3 + paths * bright_path, "depth 32 leaves out {last}");
@@ -119,7 +119,7 @@ fn so_does_each_clamp() {
     expected::hold("27_glass/fireflies", clamps_take_light(&[0, 20, 6, 2], 16).into());
 }
 
-/// The brightest pixel falls, and so does the light.
+/// The brightest pixel gets darker, and so does the picture.
 fn clamps_take_light(clamps: &[u32], frames: u32) -> Map<String, Value> {
     let mut table = Map::new();
     let mut last = (f32::INFINITY, f64::INFINITY);
@@ -141,9 +141,9 @@ fn a_drink_that_overlaps_its_glass_differs_from_one_apart() {
     let of = |scene: &str| chapter("96x60").frames(8).set("scene", scene).picture();
     let [over, apart] = ["drink", "drink apart"].map(of);
     let differ = over.pixels.iter().zip(&apart.pixels).filter(|(a, b)| a != b).count();
-    // The drink fills a twentieth of the picture at least.
+    // The drink covers at least a twentieth of the picture.
     assert!(differ > over.pixels.len() / 20, "{differ} pixels");
-    // With one surface for both the ways are arbitrary, and yet each is a way of light: none is lost or made.
+    // With one surface for both, the paths are arbitrary, and yet no light is lost or created.
     let flush = of("drink flush");
     assert!(flush.pixels.iter().flatten().all(|value| value.is_finite() && *value >= 0.0));
 }

@@ -1,4 +1,5 @@
-//! Models in glTF, rendered: samplers and mirrored nodes are as the file has them, the chess set is that of its OBJ file.
+//! Models in glTF, rendered: samplers and mirrored nodes match the file, and the chess set equals that of its
+//! OBJ file.
 
 use std::fs;
 use std::path::Path;
@@ -16,8 +17,8 @@ fn texels(folder: &Path) {
     image.save(folder.join("t.png")).expect("a picture can be written");
 }
 
-/// Two quads side by side, with these texture coordinates along u: left of the first, right of it, left of the second,
-/// right of it. `sampler` is that of their texture, `node` has keys of their node.
+/// Two quads side by side, with these texture coordinates along u: left of the first, right of it, left of
+/// the second, right of it. `sampler` is that of their texture, `node` contains keys of their node.
 fn quads(u: [f32; 4], sampler: &str, node: &str, settings: &[&str]) -> Picture {
     let folder = tempfile::tempdir().expect("a temporary folder");
     texels(folder.path());
@@ -46,7 +47,7 @@ fn quads(u: [f32; 4], sampler: &str, node: &str, settings: &[&str]) -> Picture {
     Chapter::new(NAME).size("61x31").scene(file).sets(&sets).picture()
 }
 
-/// The pixels at which two pictures differ.
+/// The number of pixels in which two pictures differ.
 fn apart(one: &Picture, other: &Picture) -> usize {
     let (one, other) = (&one.pixels, &other.pixels);
     one.iter().zip(other).filter(|(one, other)| one != other).count()
@@ -57,7 +58,7 @@ fn a_sampler_continues_a_texture_beyond_its_edge() {
     let nearest = |wrap: u32| format!(r#""magFilter":9728,"minFilter":9728,"wrapS":{wrap}"#);
     let go_on = [0.0, 1.0, 1.0, 2.0];
     let shown = |u, wrap| quads(u, &nearest(wrap), "", &[]);
-    // Repeated, the second quad begins again; mirrored, it goes back; clamped, it keeps the last texel.
+    // Repeated, the second quad starts again; mirrored, it goes back; clamped, it continues the last texel.
     for (wrap, same) in [
         (10497, [0.0, 1.0, 0.0, 1.0]),
         (33648, [0.0, 1.0, 1.0, 0.0]),
@@ -67,14 +68,14 @@ fn a_sampler_continues_a_texture_beyond_its_edge() {
     }
     let (mirrored, clamped) = (shown(go_on, 33648), shown(go_on, 33071));
     assert!(apart(&mirrored, &clamped) > 50, "the samplers are not told apart");
-    // Texels are blended, unless the file says otherwise.
+    // Texels are interpolated, unless the file says otherwise.
     let blended = quads(go_on, r#""wrapS":33648"#, "", &[]);
     assert!(apart(&mirrored, &blended) > 50);
 }
 
 #[test]
 fn a_mirrored_node_is_lit_as_its_mirror_image() {
-    // A model that is its own mirror image, but for its texture coordinates.
+    // A model that is its own mirror image, except for its texture coordinates.
     let plain = quads([0.0, 1.0, 1.0, 0.0], r#""magFilter":9728"#, "", &[]);
     let mirrored = quads([0.0, 1.0, 1.0, 0.0], r#""magFilter":9728"#, r#","scale":[-1,1,1]"#, &[]);
     assert_eq!(apart(&plain, &mirrored), 0);

@@ -1,6 +1,6 @@
 //! The picture of every chapter, compared with its golden one, `tests/golden/NAME.png`.
 //!
-//! Arguments and size are those of the chapter's table in `Cargo.toml`.
+//! The arguments and the size come from the chapter's table in `Cargo.toml`.
 
 use manuscript::project::Project;
 use run::{Chapter, chapters, needs, root};
@@ -9,7 +9,7 @@ use run::{Chapter, chapters, needs, root};
 /// tolerance on another driver is measured.
 const ELSEWHERE: [&str; 3] = ["24_accuracy", "25_scene_effects", "27_glass"];
 
-/// Makes a test for each chapter, named like the module of its other tests.
+/// Generates a test for each chapter, named like the module of its other tests.
 macro_rules! golden {
     ($($module:ident,)*) => {
         const MODULES: &[&str] = &[$(stringify!($module)),*];

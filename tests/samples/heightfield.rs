@@ -1,4 +1,4 @@
-//! 21_heightfield: each rung held to the exact ground, and pieces that stand on it.
+//! 21_heightfield: each rung compared with the exact ground, and pieces placed on it.
 
 mod judged;
 mod marched;
@@ -30,7 +30,7 @@ use run::{Chapter, expected};
 use serde_json::{Map, Value, json};
 
 const NAME: &str = "21_heightfield";
-/// The ground's instance, after those of the 28 pieces. Alone it comes after one triangle.
+/// The ground's instance, after those of the 28 pieces. Without pieces, it comes after one triangle.
 const GROUND: f32 = 28.0;
 const GROUND_ALONE: f32 = 1.0;
 const HILLS: Landscape = Landscape { k: 1.0, rings: 6 };
@@ -50,7 +50,7 @@ const VIEWS: [(&str, Landscape); 5] = [
     ("flat", FLAT),
 ];
 
-/// The two views in which rungs err most: by hits in the sky, and by rays that go through hills.
+/// The two views in which rungs have the most errors: hits in the sky, and rays that pass through hills.
 #[test]
 fn each_rung_is_as_right_as_it_promises() {
     let views = VIEWS.into_iter().filter(|(view, _)| ["hills", "steep"].contains(view));
@@ -67,14 +67,14 @@ fn each_rung_in_each_view() {
     expected::hold("21_heightfield/angles", angles.into());
 }
 
-/// Tables of the page, and of each ray that hits the hills the angle and the steps of each rung.
+/// The page's tables, and for each ray that hits the hills, the angle and the steps of each rung.
 struct Rungs {
     rows: Map<String, Value>,
     views: Map<String, Value>,
     by_angle: Vec<(f64, [f64; RUNGS.len()])>,
 }
 
-/// Holds each rung to what it promises in these views.
+/// Checks each rung's promises in these views.
 fn rungs_in(chosen: &[(&str, Landscape)]) -> Rungs {
     let alone = Alone::new();
     println!(
@@ -110,20 +110,20 @@ fn rungs_in(chosen: &[(&str, Landscape)]) -> Rungs {
             println!("{rung}: {steps:.1} steps of a ray that misses");
             views.insert(of_view(&format!("{rung}.steps_of_misses")), steps.into());
         }
-        // The rungs that bisect err nowhere; at the edges of hills rounding may decide.
+        // The rungs that bisect have no errors; at the edges of hills, rounding may decide.
         for best in [over_relaxed, bisected] {
             assert_eq!(best.right(), rays, "{view}");
             assert!(best.count(Verdict::Grazes) * 1000 <= rays, "{view}");
         }
-        // One step of the secant brings most hits nearer, and undoes neither a hit in the sky nor a hill that was lost.
+        // One step of the secant improves most hits, but fixes neither a hit in the sky nor a missed hill.
         assert!(secant.visible() <= relaxed.visible(), "{view}");
         if view != "steep" {
             assert!(secant.errors()[0] < 0.1 * relaxed.errors()[0], "{view}");
         }
-        // The rung that steps no farther than the slope allows never goes through, but it stops early.
+        // The rung limited by the slope never passes through, but it stops early.
         assert_eq!(lipschitz.count(Verdict::Through) + lipschitz.count(Verdict::FalseMiss), 0);
         if view == "flat" {
-            // With a slope of 0 the first step is right.
+            // With a slope of 0, the first step is exact.
             assert!(lipschitz.right() == rays && bisected.steps() < 5.0);
         } else {
             assert!(lipschitz.count(Verdict::TooNear) * 10 > 9 * hits, "{view}");
@@ -133,11 +133,11 @@ fn rungs_in(chosen: &[(&str, Landscape)]) -> Rungs {
                 relaxed.count(Verdict::Through) > 200 && relaxed.count(Verdict::FalseMiss) > 50
             );
         } else {
-            // Wherever it hits, it stops early; and it sees ground in the sky.
+            // All of its hits are too early, and it finds ground in the sky.
             assert!(relaxed.count(Verdict::TooNear) * 20 > 19 * hits, "{view}");
             let invents = ["hills", "near ground"].contains(&view);
             assert!(!invents || relaxed.count(Verdict::FalseHit) > 20, "{view}");
-            // The claim of the page: the rung that errs nowhere asks less often, the more so where rays graze.
+            // The page's claim: the rung without errors needs fewer evaluations, especially for grazing rays.
             let part = if view == "from above" { 1.0 } else { 0.8 };
             assert!(bisected.steps() < part * relaxed.steps(), "{view}");
         }
@@ -145,7 +145,7 @@ fn rungs_in(chosen: &[(&str, Landscape)]) -> Rungs {
     Rungs { rows, views, by_angle }
 }
 
-/// The mean steps of each rung where rays meet the ground at such angles, in degrees.
+/// The mean steps of each rung, by the angle between ray and ground in degrees.
 fn steps_by_angle(by_angle: &[(f64, [f64; RUNGS.len()])]) -> Map<String, Value> {
     let mut angles = Map::new();
     println!("| angle | rays | relaxed | secant | lipschitz | over-relaxed | bisected |");
@@ -170,7 +170,7 @@ fn steps_by_angle(by_angle: &[(f64, [f64; RUNGS.len()])]) -> Map<String, Value> 
     angles
 }
 
-/// The bounds of the page that follow from the formula of the land alone.
+/// The page's bounds that follow from the formula of the land alone.
 #[test]
 fn the_land_is_as_steep_and_as_exact_as_the_page_says() {
     let slope = |landscape: Landscape| f64::from(landscape.shape().lipschitz);
@@ -183,7 +183,7 @@ fn the_land_is_as_steep_and_as_exact_as_the_page_says() {
     });
     expected::hold_exact("21_heightfield/land", values);
     for landscape in [HILLS, STEEP] {
-        // Half the bound at least is reached somewhere, and it is never passed.
+        // At least half of the bound is reached somewhere, and it is never exceeded.
         let field = judged::exact(landscape);
         let places = (0..400).flat_map(|i| (0..400).map(move |j| [i, j]));
         let slopes = places.map(|[i, j]| {
@@ -205,7 +205,7 @@ fn error_maps() {
         [("hills", HILLS), ("near ground", HILLS), ("steep", STEEP)].map(|(view, landscape)| {
             let preset = format!("preset={view}");
             let marched = Marched::new(&alone, "240x150", &[&preset], landscape);
-            // The share of rays that are wrong; the first panel of a row names its view, too.
+            // The percentage of wrong rays; the first panel of a row also names its view.
             let label = |number: usize| {
                 let march = &marched[number];
                 let part = 1.0 - march.right() as f64 / march.0.len() as f64;
@@ -241,7 +241,7 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
         if let Some(best) = best.found {
             assert!((best / exact - 1.0).abs() < 1e-4, "{best} for {exact}");
         }
-        // 300 steps of 0.4 of the height leave (1 - 0.4·sine)^300 of it.
+        // After 300 steps of 0.4 of the height, (1 - 0.4·sine)^300 of it is left.
         let end = exact * (1.0 - (1.0 - 0.4 * sine).powi(300));
         if 1.0 - end * sine > 0.0016 * end && end < 300.0 {
             assert_eq!(march.steps, 300.0);
@@ -254,7 +254,7 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
         }
     }
     for March { ray, found, .. } in &march(5.0)[0].0 {
-        // It stops where the height is 0.0015·t, or at most a step of 0.4 of that further.
+        // It stops where the height is 0.0015·t, or at most a step of 0.4 of that later.
         let (sine, t) = (-ray.direction.y, found.unwrap());
         let stop = 1.0 / (sine + 0.0015);
         assert!(t > stop * 0.9999 && t < 1.0 / sine, "{t} {stop}");
@@ -270,7 +270,7 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
 #[test]
 fn from_below_the_ground_is_the_ground() {
     let alone = Alone::new();
-    // In a hill, 2.2 high, that looks at its inside and out of the pond beside it.
+    // Inside a hill, 2.2 high, looking at its inside and out of the pond next to it.
     let sets = ["camera eye=8,0.5,2", "camera target=20,0.25,-6", "field of view=100"];
     let [relaxed, _, _, over_relaxed, bisected] = Marched::new(&alone, "60x40", &sets, HILLS);
     let above = Exact::new(HILLS, DVec3::splat(100.0));
@@ -279,7 +279,7 @@ fn from_below_the_ground_is_the_ground() {
     for best in [over_relaxed, bisected] {
         assert_eq!(best.right(), best.0.len());
     }
-    // A negative height is a step back.
+    // A negative height is a backward step.
     assert!(relaxed.right() + relaxed.count(Verdict::FalseMiss) == relaxed.0.len());
     assert!(relaxed.count(Verdict::FalseMiss) == relaxed.hits());
 }
@@ -306,7 +306,7 @@ fn normals_are_those_of_the_height_function() {
         count += 1;
     }
     println!("{count} normals, off by {worst:.1e} at most");
-    // How far the place is off, times how fast the slope changes: 9·32·(2.2/32² + ...) a unit.
+    // The error of the position times the rate of change of the slope: 9·32·(2.2/32² + ...) per unit.
     assert!(count > 4000 && worst < 1e-4, "{count} {worst}");
 }
 

@@ -1,4 +1,5 @@
-//! 12_infinite_plane: hits compared with the exact plane, and a plane that takes part in everything.
+//! 12_infinite_plane: hits compared with the exact plane, which shades, mirrors and casts shadows like other
+//! objects.
 
 mod looks;
 mod mirrors;
@@ -19,14 +20,14 @@ use run::{Chapter, bits, expected, same_colors, shaders_with};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
-/// The value of `show=hit` for the plane, instead of an instance.
+/// The value of `show=hit` for the plane, in place of an instance.
 pub const PLANE: f32 = -2.0;
 
 fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// A model of one material that mirrors: an octahedron around `middle`. It loads faster than the pieces.
+/// A model of one mirroring material: an octahedron around `middle`. It loads faster than the pieces.
 pub struct Octahedron(tempfile::TempDir);
 
 impl Octahedron {
@@ -59,7 +60,8 @@ impl Octahedron {
         Self(folder)
     }
 
-    /// Beyond what a camera sees, so that the plane is alone: on two sides, or it would be moved to the origin.
+    /// Out of the camera's view, so that only the plane is visible. On two sides, because otherwise it would
+    /// be moved to the origin.
     pub fn out_of_sight() -> Self {
         Self::new(&[Vec3::new(0.0, 0.0, 1e9), Vec3::new(0.0, 0.0, -1e9)])
     }
@@ -72,14 +74,14 @@ impl Octahedron {
         chapter().sets(sets).scene(self.path()).picture()
     }
 
-    /// The picture that a sample makes of it by other shaders.
+    /// A sample's picture of it with the shaders of a folder.
     fn picture_by(&self, shaders: &Path, sample: &str, sets: &[&str]) -> Picture {
         let chapter = Chapter::new(sample).size(SIZE).shaders(shaders);
         chapter.sets(sets).scene(self.path()).picture()
     }
 }
 
-/// A plane, an eye, and a look along its horizon.
+/// A plane, an eye, and a view along its horizon.
 struct View {
     plane: Plane,
     eye: DVec3,
@@ -87,10 +89,10 @@ struct View {
     direction: DVec3,
 }
 
-/// A ray, where the shader met the plane, and the truth.
+/// A ray, the shader's hit with the plane, and the exact hit.
 struct Judged {
     ray: Ray,
-    /// t, if the plane is met.
+    /// t, if the plane is hit.
     found: Option<f32>,
     exact: Option<Surface>,
     /// The sine of the angle between ray and plane.
@@ -98,7 +100,7 @@ struct Judged {
 }
 
 impl View {
-    /// From `height` above a plane, down at a slope (up, if negative), all in f32 numbers.
+    /// From `height` above a plane, downwards at a slope (upwards if negative), all in f32 numbers.
     fn above(plane: Plane, height: f64, slope: f64) -> Self {
         let n = plane.normal.normalize();
         let along = n.any_orthonormal_vector();
@@ -106,7 +108,7 @@ impl View {
         Self { plane, eye, direction: along - n * slope * height.signum() }
     }
 
-    /// The rays of a picture whose middle row is the given direction and its neighbours to the sides.
+    /// The rays of a picture whose middle row contains the given direction and its neighbours to the sides.
     fn judged(&self, model: &Octahedron) -> Vec<Judged> {
         let text = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
         let Plane { normal, distance } = self.plane;
@@ -138,7 +140,7 @@ fn level(distance: f64) -> Plane {
 }
 
 fn tilted(distance: f64) -> Plane {
-    // Any length will do: the square of this one is 0 in 32 bits.
+    // The length does not matter: the square of this one is 0 in 32 bits.
     Plane { normal: DVec3::new(1.0, -3.0, 2.5) * 2f64.powi(-90), distance }
 }
 
@@ -154,7 +156,7 @@ fn the_distance_is_right_near_and_far() {
     views.push(View::above(tilted(1e6), 2.0, 1e-3));
     let (mut hits, mut grazing, mut worst) = (0, 0, 0.0f64);
     for Judged { ray, found, exact, sine } in views.iter().flat_map(|view| view.judged(&model)) {
-        // The plane is behind, parallel, or farther than rays reach; or it is met.
+        // The plane is behind, parallel, or out of reach; otherwise it is hit.
         let Some(Surface { t, .. }) = exact else {
             assert_eq!(found, None, "{ray:?}");
             continue;
@@ -186,7 +188,7 @@ fn rays_in_the_plane_and_rays_that_begin_on_it_miss() {
             assert_eq!(found, None, "{ray:?}");
         }
     }
-    // Just above, the middle row goes along the plane, and misses; those below hit.
+    // Just above, the middle row goes along the plane and misses; the rows below hit.
     let judged = View { plane: level(0.0), eye: DVec3::Y, direction: DVec3::Z }.judged(&model);
     let level: Vec<_> = judged.iter().filter(|judged| judged.sine == 0.0).collect();
     assert_eq!(level.len(), 25);
@@ -197,7 +199,7 @@ fn rays_in_the_plane_and_rays_that_begin_on_it_miss() {
 #[test]
 fn testing_before_and_after_give_the_same_bits() {
     let near = Octahedron::new(&[Vec3::Y]);
-    // On two sides of the origin, or it would be moved there.
+    // On two sides of the origin, because otherwise it would be moved there.
     let far = [Vec3::new(6e3, 4801.0, 6.4e3), Vec3::new(-6e3, 4801.0, -6.4e3)];
     let far = Octahedron::new(&far);
     let at_the_far_one = [
@@ -220,7 +222,7 @@ fn testing_before_and_after_give_the_same_bits() {
 #[test]
 fn without_the_plane_the_picture_is_that_of_06() {
     let model = Octahedron::new(&[Vec3::new(0.2, 1.1, 0.0)]);
-    // The preset's sun has a strength of its own: here it gets that of 06.
+    // The preset's sun has its own strength; here it gets that of 06.
     let strength = "return light.strength;";
     let shaders = shaders_with("common/light.glsl", strength, "return vec3(4.4, 3.5, 2.4);");
     let sets = ["sun azimuth=340", "sun elevation=20", "camera eye=2,3,4", "camera target=0,1,0"];
@@ -233,7 +235,7 @@ fn without_the_plane_the_picture_is_that_of_06() {
     assert!(changed > 2000, "{changed}");
 }
 
-/// The board preset as the reference sees it.
+/// The reference's copy of the board preset.
 fn pieces() -> reference::scene::Scene {
     let mut scene = Scene::chess().unwrap();
     scene.remove_board();

@@ -1,4 +1,4 @@
-//! 09_instancing: every matrix, mask and flag held to the reference.
+//! 09_instancing: every matrix, mask and flag compared with the reference.
 
 mod flags;
 pub mod normals;
@@ -25,25 +25,25 @@ use formation::{Formation, Piece, SceneKind};
 const NAME: &str = "09_instancing";
 const SIZE: &str = "120x75";
 pub const SPECIMEN: &str = "scene=specimens";
-/// Few enough pieces for the reference to hold a copy of each.
+/// Few enough pieces for the reference to have a copy of each.
 const FEW: [&str; 3] = ["squares=60", "camera eye=1,5,8", "camera target=0,0.8,0"];
 
 fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// A scene and a sample's view of it: its pieces, and the same for the reference.
+/// A scene and a sample's view of it: its pieces, and the reference's copy.
 pub struct ViewedScene {
     sample: &'static str,
     pub pieces: Vec<Piece>,
     exact: Exact,
     pub camera: Camera,
-    /// Picture of `show=ray direction`: no control but the camera's changes it.
+    /// The picture of `show=ray direction`, which depends only on the camera's controls.
     directions: OnceCell<Picture>,
 }
 
 impl ViewedScene {
-    /// A scene and a view of it, both moved by `shift`.
+    /// A scene and a view of it, both translated by `shift`.
     pub fn new(
         sample: &'static str,
         scene: SceneKind,
@@ -60,7 +60,7 @@ impl ViewedScene {
         Self { sample, pieces, exact, camera, directions: OnceCell::new() }
     }
 
-    /// The specimens as a sample has them that moves them by `shift`.
+    /// The specimens of a sample that moves them by `shift`.
     pub fn moved_specimens(sample: &'static str, shift: DVec3) -> Self {
         let camera = formation::camera(SceneKind::Specimens);
         Self::new(sample, SceneKind::Specimens, 0, camera, shift)
@@ -80,14 +80,14 @@ impl ViewedScene {
         Chapter::new(self.sample).size(SIZE).sets(sets).picture()
     }
 
-    /// The matrix of a piece, as the device has it.
+    /// The matrix of a piece on the device.
     pub fn transform(&self, index: usize) -> Transform {
         let rows = scene::transform(&self.pieces[index].instance().transform).matrix;
         let row = |i: usize| std::array::from_fn(|k| rows[4 * i + k]);
         Transform::from_rows([row(0), row(1), row(2)]).unwrap()
     }
 
-    /// The rays of a picture with what they hit.
+    /// The rays of a picture with their hits.
     fn hits(&self, sets: &[&str]) -> Vec<(Ray, [f32; 4])> {
         let show = |view| self.picture(&[sets, &[view]].concat());
         let directions = self.directions.get_or_init(|| show("show=ray direction"));
@@ -114,7 +114,7 @@ fn hits_agree_under_every_matrix() {
         let Tally { wrong, first_wrong, agree, .. } = &tally;
         assert_eq!(*wrong, 0, "{first_wrong:?}");
         assert!(*agree > 8_950, "{tally}");
-        // Six knights at the end of the row, all of them seen.
+        // Six knights at the end of the row, all of them visible.
         if sets == [SPECIMEN] {
             let knights = &seen[seen.len() - 6..];
             assert!(knights.iter().all(|&pixels| pixels > 30), "{knights:?}");
@@ -122,7 +122,7 @@ fn hits_agree_under_every_matrix() {
     }
 }
 
-/// The specimens' shadow rays: none may stop at the triangle that it leaves, however that is stretched.
+/// The specimens' shadow rays: none may be blocked by the triangle it leaves, however that is stretched.
 #[test]
 fn no_matrix_makes_a_triangle_shadow_itself() {
     let viewed = ViewedScene::specimens();
@@ -165,7 +165,8 @@ fn the_custom_index_does_not_depend_on_the_order() {
     same_hits("ordered and not", NAME, &hits, &unordered_hits);
     let (mut moved, mut others) = (0, 0);
     for ((hit, a), b) in hits.pixels.iter().zip(&ids.pixels).zip(&unordered_ids.pixels) {
-        // As the pieces come, gl_InstanceID is their index. At an edge, each view may see either piece.
+        // With the pieces in order, gl_InstanceID is their index. At an edge, each view may show either
+        // piece.
         others += u32::from(hit[0] != b[3]);
         moved += usize::from(a[3] != b[3]);
     }
@@ -173,7 +174,7 @@ fn the_custom_index_does_not_depend_on_the_order() {
     assert!(moved > 3000 && others <= flips, "{moved}, {others} others");
 }
 
-/// In how many pixels of a hundred two pictures of hits show another triangle.
+/// The percentage of pixels in which two pictures of hits show different triangles.
 pub fn percent_changed(a: &Picture, b: &Picture) -> f64 {
     let pairs = a.pixels.iter().zip(&b.pixels);
     let changed = pairs.filter(|(a, b)| a[..2] != b[..2]).count();
@@ -186,12 +187,12 @@ fn copies_look_the_same_and_take_the_memory() {
     let instances = chapter().sets(&sets("geometry=instances")).run();
     let copies = chapter().sets(&sets("geometry=copies")).run();
     let changed = percent_changed(&instances.picture, &copies.picture);
-    // A baked corner is rounded once more, so rays at an edge may take the other side.
+    // A baked vertex is rounded once more, so rays at an edge may take the other side.
     assert!(changed < 0.5, "{changed} %");
     let number = |run: &Run, name: &str| run.report["chapter"][name].as_u64().unwrap();
     assert_eq!(number(&instances, "triangles"), number(&copies, "triangles"));
     assert_eq!(number(&copies, "meshes"), number(&copies, "pieces"));
-    // A triangle that is copied takes at least its three indices and a leaf; a piece 64 bytes.
+    // A copied triangle needs at least its three indices and a leaf; a piece needs 64 bytes.
     let more = |name| number(&copies, name) - number(&instances, name);
     let triangles = number(&copies, "triangles");
     assert!(more("mesh_bytes") + more("bottom_level_bytes") > 40 * triangles);
@@ -224,7 +225,7 @@ fn copies_of_a_thousand_squares_take_what_the_page_says() {
     let own = |report: &Value, name: &str| report["chapter"][name].as_u64().unwrap();
     let parts = ["mesh_bytes", "bottom_level_bytes", "top_level_bytes", "record_bytes"];
     let parts = parts.map(|name| row(name, own));
-    // What buffers take depends on where the driver puts them, by some hundred bytes in all.
+    // The size of buffers depends on their placement by the driver, by some hundred bytes in all.
     let all = row("bytes_allocated", |report, name| {
         report[name].as_u64().unwrap().next_multiple_of(100_000)
     });
@@ -233,14 +234,14 @@ fn copies_of_a_thousand_squares_take_what_the_page_says() {
     println!("{pieces} pieces, {each} bytes for a copy");
     expected::hold("09_instancing/memory", table.into());
     expected::hold("09_instancing/copies", json!({ "pieces": pieces, "each": each }));
-    // The table's rows add up to less than all. The rest is what a frame needs, alike in both columns.
+    // The table's rows add up to less than the total. The rest is what a frame needs, equal in both columns.
     let rest = [0, 1].map(|i| all[i] - parts.iter().map(|pair| pair[i]).sum::<u64>());
     assert!(rest.iter().all(|&bytes| bytes < 16 << 20) && all[1] > 30 * all[0], "{rest:?}");
 }
 
 #[test]
 fn a_hundred_thousand_instances_are_built_and_traced() {
-    // From above, so that the whole disk is in the picture.
+    // From above, so that the whole disk is visible.
     let sets = ["squares=70000", "camera eye=0,330,60", "camera target=0,0,0", "field of view=50"];
     let run = chapter().sets(&sets).sets(&["show=hit"]).run();
     let pieces = run.report["chapter"]["pieces"].as_u64().unwrap();
@@ -248,7 +249,7 @@ fn a_hundred_thousand_instances_are_built_and_traced() {
     assert!(pieces > 100_000, "{pieces}");
     let seen: std::collections::BTreeSet<_> = indices(&run.picture).flatten().collect();
     assert!(seen.len() > 3000, "{} seen", seen.len());
-    // Indices beyond 16 bits arrive whole, and the last squares are at the rim.
+    // Indices beyond 16 bits arrive intact, and the last squares are at the rim.
     assert!(seen.iter().any(|&index| index > 65_536) && *seen.last().unwrap() < pieces as usize);
     assert!(seen.last().unwrap() + 2000 > pieces as usize, "{:?}", seen.last());
 }

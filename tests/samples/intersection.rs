@@ -38,7 +38,7 @@ fn grid(count: u32) -> ReferenceShapes {
     ReferenceShapes::new(|model, pieces| scenes::shapes(SceneKind::Grid, count, model, pieces))
 }
 
-/// A bound on what the formula of `sphere.rint` makes of a hit.
+/// An error bound of the formula in `sphere.rint`.
 ///
 /// With a unit direction and D the distance to the centre, b is off by 3u·D, so b² by 7u·D²; a·c is off by 8u·D²,
 /// and their difference by 16u·D² with its own rounding. Half of the chord is the root of that difference.

@@ -1,4 +1,4 @@
-//! 04_jitter_camera: where the rays go, what the filters weigh, and that the mean is and stays right.
+//! 04_jitter_camera: the directions of the rays, the weights of the filters, and the accuracy of the mean.
 
 mod mean;
 mod plots;
@@ -15,7 +15,7 @@ const NAME: &str = "04_jitter_camera";
 const SIZE: &str = "240x150";
 /// Enough pixels for many points, few enough for many frames.
 const SMALL: &str = "64x40";
-/// Purpose of a random number: the place within the pixel. As in `shaders/common/random.glsl`.
+/// The purpose of a random number: the place within the pixel, as in `shaders/common/random.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 
 fn chapter(size: &str) -> Chapter {
@@ -29,7 +29,7 @@ pub fn error(a: &Picture, b: &Picture) -> f64 {
     (squares.sum::<f64>() / (3 * a.pixels.len()) as f64).sqrt()
 }
 
-/// Distance of each ray from its pixel's middle, in pixels, from the directions that the GPU wrote.
+/// The offset of each ray from its pixel's middle, in pixels, from the directions that the GPU wrote.
 pub fn offsets(directions: &Picture) -> Vec<[f64; 2]> {
     let (width, height) = (f64::from(directions.width), f64::from(directions.height));
     let camera = Scene::chess().unwrap().camera.basis(width / height);
@@ -57,7 +57,7 @@ fn two_runs_give_the_same_bits() {
 #[test]
 fn rays_through_the_centre_give_the_picture_of_02() {
     let basic = render("02_basic", SIZE, &[]).picture;
-    // The mean of equal colours is that colour, to the bit, whatever the filter.
+    // The mean of equal colours is that colour, bit for bit, for every filter.
     for filter in ["box", "tent", "Blackman-Harris"] {
         let picture = chapter(SIZE).frames(3).sets(&["jitter=off"]).set("filter", filter).picture();
         same_colors(&format!("04 and 02, {filter}"), NAME, &picture, &basic);
@@ -72,7 +72,7 @@ fn each_ray_goes_where_the_hash_says() {
         for (i, offset) in offsets(&directions).into_iter().enumerate() {
             let [x, y] = [i as u32 % directions.width, i as u32 / directions.width];
             let point = hash([x | y << 16, frame, 0, DIMENSION_PIXEL]);
-            // A direction of 24 bits tells the place in a picture of 64 columns to 2^-16 of one.
+            // A direction of 24 bits determines the place in a picture of 64 columns to 2^-16 of a column.
             let is_near = |axis: usize| {
                 let place = f64::from(point[axis] >> 8) * 0.5f64.powi(24);
                 (offset[axis] + 0.5 - place).abs() < 0.5f64.powi(16)
@@ -91,7 +91,7 @@ fn neighbours_and_frames_have_no_points_in_common() {
     };
     let (points, next) = (frame(5), frame(6));
     let correlation = |others: &[[f64; 2]], axis: usize| {
-        // The variance of a number that is uniform over a pixel is 1/12.
+        // The variance of a uniform number over a pixel is 1/12.
         let pairs = points.iter().zip(others);
         let count = pairs.len() as f64;
         pairs.map(|(a, b)| 12.0 * a[axis] * b[axis]).sum::<f64>() / count
@@ -138,7 +138,7 @@ fn a_jittered_ray_sees_what_the_reference_sees() {
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
 }
 
-/// The part of a filter below an offset in pixels, one axis.
+/// The fraction of a filter below an offset in pixels, along one axis.
 fn part_below(filter: &str, x: f64) -> f64 {
     let tau = std::f64::consts::TAU;
     match filter {
@@ -174,15 +174,15 @@ fn offsets_are_spread_as_the_filter_says() {
         for axis in [0, 1] {
             let mut along: Vec<f64> = offsets.iter().map(|offset| offset[axis]).collect();
             along.sort_by(f64::total_cmp);
-            // 240 columns leave a direction of 24 bits 2^-14 of one.
+            // With 240 columns, a direction of 24 bits determines the place to 2^-14 of a column.
             let slack = 0.5f64.powi(14);
             assert!(along[0] >= -radius - slack && along[along.len() - 1] <= radius + slack);
-            // Kolmogorov and Smirnov: of sets drawn from the filter one in a thousand is farther off.
+            // Kolmogorov and Smirnov: one set in a thousand drawn from the filter deviates more.
             let bound = 1.95 / count.sqrt();
             let off = |(i, &x): (usize, &f64)| (part_below(filter, x) - i as f64 / count).abs();
             let most = along.iter().enumerate().map(off).fold(0.0, f64::max);
             assert!(most < bound, "{filter}, axis {axis}: {most} above {bound}");
-            // The filter mirrored is the filter: so must be the parts beyond x and -x.
+            // The filter is symmetric, so the fractions beyond x and -x must be equal.
             let below = |x: f64| along.partition_point(|&y| y < x) as f64 / count;
             for part in 1..10 {
                 let x = radius * f64::from(part) / 10.0;
@@ -198,7 +198,7 @@ fn offsets_are_spread_as_the_filter_says() {
 
 #[test]
 fn a_changed_control_starts_again() {
-    // `--compare` changes the control again and again within one run, as a reader does in the window.
+    // `--compare` changes the control repeatedly within one run, like a user in the window.
     let arguments = ["--compare", "filter=tent|box", "--frames", "4"];
     let after = render(NAME, SMALL, &arguments).picture;
     let filters =

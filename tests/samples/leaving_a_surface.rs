@@ -1,4 +1,4 @@
-//! 26_leaving_a_surface: rays that start where they should, in four sizes and places.
+//! 26_leaving_a_surface: the starts of rays, at four sizes and places.
 
 mod plots;
 
@@ -30,14 +30,14 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     same_answers("with and without shadow rays", NAME, &off, &on.picture());
 }
 
-/// The camera that the tests of rays look through, from above and from low down.
+/// The camera for most tests of rays, looking down from above.
 const HIGH: [&str; 3] =
     ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
 
-/// Rules for the start of a ray, from the least to the best. `offset` is chapter 05's.
+/// Rules for the start of a ray, from the worst to the best. `offset` is chapter 05's.
 const RULES: [&str; 6] = ["nothing", "tmin", "normal", "integers", "reprojected", "bound"];
 
-/// The chess set in four sizes and places: the controls, and the same for the reference.
+/// The chess set at four sizes and places: the controls, and the reference's copy.
 const SETTINGS: [([&str; 2], Placement); 4] = [
     (["size=0.001", "moved=0"], Placement { size: 1e-3, moved: DVec3::ZERO }),
     (["size=1", "moved=0"], Placement { size: 1.0, moved: DVec3::ZERO }),
@@ -54,7 +54,7 @@ struct Setting<'a> {
     camera: Camera,
     directions: Picture,
     hits: Picture,
-    /// A copy of the shaders, in which a line may be changed.
+    /// A copy of the shaders that may be changed.
     shaders: TempDir,
 }
 
@@ -81,8 +81,7 @@ impl<'a> Setting<'a> {
         chapter.sets(&self.sets).set("origin", rule).sets(sets).picture()
     }
 
-    /// Judges the ray number `bounce` of every pixel that starts by this rule, and the shadow ray of
-    /// its start.
+    /// Judges ray number `bounce` of every pixel, started by this rule, and the shadow ray from its start.
     fn reflected(&self, rule: &str, bounce: u32) -> Tally {
         let tmin = if rule == "tmin" { 1e-4 } else { 0.0 };
         let rays_of = |bounce: u32| -> Vec<_> {
@@ -123,7 +122,7 @@ impl<'a> Setting<'a> {
             let Some(hit) = answer(hit) else { continue };
             let ray = Ray::from_f32([x, y, z], light, tmin, 1e30);
             let leaving = Leaving::new(&self.exact, &arriving, &hit, &ray);
-            // The shader knows without a ray that a light below the surface is hidden.
+            // The shader knows without a ray that a light below the surface is blocked.
             if leaving.steepness() > 0.0 {
                 tally.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
             }
@@ -137,7 +136,8 @@ fn point(set: &str) -> DVec3 {
     DVec3::from_slice(&numbers.map(|number| number.parse().unwrap()).collect::<Vec<_>>())
 }
 
-/// The best rule: nothing wrong in this setting. A lesser one: so many wrong that the test is no empty one.
+/// Checks that the best rule makes no error in this setting, and that a worse one makes so many that the test
+/// is significant.
 fn hold(setting: usize, lesser: &str, wrong: impl Fn(&Tally) -> usize) {
     let setting = Setting::new(setting, SIZE, HIGH);
     for tally in [setting.reflected("bound", 1), setting.shadow("bound")] {
@@ -170,15 +170,15 @@ fn no_self_hit_and_no_lost_occluder_where_the_set_is_far_away() {
     hold(3, "tmin", |tally| tally.self_hits);
 }
 
-/// Vulkan promises of a sum one of two floats, not the nearest: twice the error that the bounds count an
-/// operation. What they count for the device's own test is larger, and makes up for it.
+/// Vulkan promises one of the two neighbouring floats for a sum, not the nearest: twice the error per
+/// operation assumed by the bounds. Their allowance for the device's own test is larger, and makes up for it.
 #[test]
 #[ignore = "nightly: all rays of a setting by exact numbers; quick: leaving_a_surface::no_self_hit_and_no_lost_occluder_where_the_set_is_far_away"]
 fn the_bounds_hold_in_the_worst_arithmetic_that_conforms() {
     if !run::has_worst_arithmetic() {
         return;
     }
-    // Far away the point's own rounding is the largest part.
+    // Far away, the rounding of the point itself is the largest part.
     let setting = Setting::computed("worst", 3, SIZE, HIGH);
     for rule in ["bound", "offset"] {
         for tally in [setting.reflected(rule, 1), setting.shadow(rule)] {
@@ -216,11 +216,11 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
     println!("{all} rays, {slivers} on slivers moved past an edge");
     expected::hold("26_leaving_a_surface/gaps", gaps.into());
     expected::hold("26_leaving_a_surface/million", json!({ "rays": all, "slivers": slivers }));
-    // A bound that were too large would have many more.
+    // A bound that was too large would have many more.
     assert!(all > 1_000_000 && slivers * 100_000 < all, "{slivers} of {all}");
 }
 
-/// The lines in which `origin.glsl` goes up by the step of a rule.
+/// The lines in which `origin.glsl` adds a rule's step.
 const STEPS: [(&str, &str); 3] = [
     ("bound", "return RayOrigin(from.position + step * from.normal, 0.0);"),
     ("offset", "return RayOrigin(from.position + from.offset * from.normal, 0.0);"),
@@ -237,8 +237,8 @@ impl Setting<'_> {
     }
 }
 
-/// By bisection, to a hundredth: with the factor that is told no ray of the setting hits
-/// the surface that it leaves, and with a little less one does.
+/// By bisection, to a hundredth: with the resulting factor, no ray of the setting hits the surface it leaves,
+/// and with a slightly smaller one, some ray does.
 #[test]
 #[ignore = "by hand: takes a table of the page"]
 fn the_least_step_that_never_fails() {
@@ -251,7 +251,7 @@ fn the_least_step_that_never_fails() {
             while setting.scaled(rule, serves).self_hits > 0 && serves < 1e3 {
                 (fails, serves) = (serves, 8.0 * serves);
             }
-            // In a plane through the origin Mitsuba's rule goes up by 0.
+            // In a plane through the origin, Mitsuba's rule adds nothing.
             if serves > 1e3 {
                 assert_eq!(rule.0, "magnitudes", "{place}: none is enough");
                 println!("{place}: none is enough");

@@ -1,4 +1,4 @@
-//! 34_lights: shadows of a lamp held to the reference, and how its light fades.
+//! 34_lights: shadows of a lamp compared with the reference, and the decrease of its light.
 
 use common::app::Picture;
 use common::scene::{PointLight, Scene};
@@ -43,7 +43,7 @@ fn a_light_below_the_board_lights_nothing() {
     assert!(lit.is_none(), "{lit:?}");
 }
 
-/// An object beyond the lamp casts no shadow: a piece that stands behind a lamp between pieces.
+/// An object beyond the lamp casts no shadow: a piece behind a lamp between pieces.
 #[test]
 fn a_shadow_ray_ends_at_the_lamp() {
     let low = ["lamp position=2.5,1.1,1.5", "show=shadow origin"];
@@ -73,7 +73,7 @@ fn a_lamp_fades_with_the_square_of_the_distance() {
         let (to_light, view) = (lamp.position - point, (eye - point).normalize());
         let light = to_light.normalize();
         let highlight = up.dot((view + light).normalize()).max(0.0).powf(90.0) * 98.0 / 8.0;
-        // In the dark there is the sky's light alone, which on a level square is known.
+        // In the dark there is only the light of the sky, which has a closed form on a level square.
         let base = Vec3::new(dark[0], dark[1], dark[2]) / Vec3::new(0.42, 0.47, 0.55);
         let reflected = (base + 0.03 * highlight) * light.y / std::f32::consts::PI;
         let expected = lamp.intensity / to_light.length_squared() * reflected;

@@ -1,4 +1,4 @@
-//! However a render is cut, stopped, repeated and merged, the bytes are the same.
+//! The bytes of a render are the same however it is cut, stopped, repeated and merged.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,12 +10,12 @@ use instruments::sums::{Header, merge};
 use run::{bits, command, has_worst_arithmetic, heeding, refusal, render};
 use tempfile::TempDir;
 
-/// A sample that gathers, and quick.
+/// A sample that accumulates frames, and a fast one.
 const NAME: &str = "04_jitter_camera";
-/// Small: the test is about how a render is cut into parts, not about the picture.
+/// Small: the test is about cutting a render into parts, not about the picture.
 const SIZE: [&str; 2] = ["--size", "24x16"];
 
-/// A folder with files of sums of a chapter.
+/// A folder with a chapter's files of sums.
 struct Parts {
     folder: TempDir,
     chapter: &'static str,
@@ -34,7 +34,7 @@ impl Parts {
         self.folder.path().join(name)
     }
 
-    /// The command that begins or goes on with a part.
+    /// The command that starts or continues a part.
     fn task(&self, samples: &str, file: &str) -> Command {
         let file = self.path(file);
         let mut task = heeding(self.chapter);
@@ -51,12 +51,12 @@ impl Parts {
         self.path(file)
     }
 
-    /// The bytes of a render in one piece.
+    /// The bytes of an uninterrupted render.
     fn whole(&self, end: u32) -> Vec<u8> {
         fs::read(self.done(&format!("0..{end}"), &format!("whole-{end}"))).expect("it is there")
     }
 
-    /// Starts a task that would take days, and waits until so many samples are saved.
+    /// Starts a task that would take days, and waits until this many samples are saved.
     fn long_task(&self, file: &str, samples: u64) -> Child {
         let child = self.task("0..4000000000", file).stderr(std::process::Stdio::piped()).spawn();
         let mut child = child.expect("the sample starts");
@@ -68,12 +68,12 @@ impl Parts {
     }
 }
 
-/// Number of samples in a file.
+/// The number of samples in a file.
 fn count(file: &Path) -> u64 {
     Header::open(file).map_or(0, |header| header.samples.count())
 }
 
-/// The bytes of the union of files.
+/// The bytes of several files merged.
 fn merged(files: &[PathBuf]) -> Vec<u8> {
     let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
     merge(&files).expect("they fit").bytes().expect("they can be written")
@@ -105,14 +105,14 @@ fn a_render_cut_two_and_seven_ways_is_the_render_in_one_piece() {
         files.reverse();
         assert_eq!(merged(&files), whole, "{cuts:?}, backwards");
     }
-    // Not in the order of the samples either, and in one file.
+    // Samples out of order, and all in one file.
     for samples in ["12..14", "0..3", "0..16"] {
         parts.done(samples, "one");
     }
     assert_eq!(fs::read(parts.path("one")).unwrap(), whole);
 }
 
-/// A sample must follow from its number alone, in every chapter that gathers.
+/// In every chapter that accumulates frames, a sample must depend only on its number.
 #[test]
 fn so_it_is_in_every_chapter_that_gathers() {
     for chapter in ["11_path_tracing", "27_glass", "28_depth_of_field", "37_sequences"] {
@@ -158,13 +158,13 @@ fn a_task_that_is_asked_to_stop_saves_what_it_has() {
     }
 }
 
-/// A sample of a slow scene may take minutes, and until it is complete there is nothing to save.
+/// A sample of a slow scene may take minutes, and nothing can be saved until it is complete.
 #[cfg(unix)]
 #[test]
 fn a_task_that_is_asked_to_stop_before_its_first_sample_does_not_wait_for_it() {
     let parts = Parts::of("27_glass");
-    // A signal that comes before the sample has begun ends any program. Had it waited for the end of the sample,
-    // there would be a file, and another line.
+    // A signal that arrives before the sample begins ends any program. If the program had waited for the end
+    // of the sample, there would be a file and another message.
     for wait in [1, 2, 4, 8, 16, 32, 64] {
         let mut task = heeding(parts.chapter);
         task.args(["--size", "1000x1000", "--samples", "0..4", "--save", "part"]);
@@ -195,7 +195,7 @@ fn a_task_that_runs_twice_counts_once() {
     }
     let whole = parts.whole(12);
     assert_eq!(fs::read(parts.path("part")).unwrap(), whole);
-    // Once more, when all is done: there is nothing to render.
+    // Once more after the end: there is nothing to render.
     parts.done("0..12", "part");
     assert_eq!(fs::read(parts.path("part")).unwrap(), whole);
 }
@@ -209,7 +209,7 @@ fn sixty_four_tasks_through_gnu_parallel_give_the_same_bytes_though_some_are_kil
         return;
     }
     let parts = Parts::new();
-    // Every fifth task dies at its first try, after a sample: parallel tries it again.
+    // Every fifth task dies at its first attempt, after one sample; parallel repeats it.
     let task = "export SLURM_ARRAY_TASK_ID={}
         if [ $(({} % 5)) = 3 ] && [ ! -e {}.tried ]; then
             touch {}.tried
@@ -243,13 +243,13 @@ fn the_picture_is_the_mean_rounded_once() {
     let mean = render(NAME, "24x16", &["--samples", "0..8"]).picture;
     for (i, pixel) in mean.pixels.iter().enumerate() {
         for (channel, mean) in pixel.iter().enumerate() {
-            // Eight floats of 24 bits have an exact sum in 53, and an eighth of it is exact, too.
+            // Eight floats of 24 bits have an exact sum in 53, and an eighth of it is also exact.
             let sum: f64 = samples.iter().map(|s| f64::from(s.pixels[i][channel])).sum();
             assert_eq!(mean.to_bits(), ((sum / 8.0) as f32).to_bits(), "pixel {i}");
         }
     }
     assert_ne!(bits(&samples[0]), bits(&samples[1]), "all samples are equal");
-    // A sample alone is the frame of that number without means.
+    // A single sample is the frame of that number without accumulation.
     let frame = render(NAME, "24x16", &["--frames", "8", "--set", "accumulate=off"]).picture;
     assert_eq!(bits(&samples[7]), bits(&frame));
 }
@@ -275,7 +275,7 @@ fn bands_give_the_same_bytes() {
             .arg(&file);
         assert!(task.status().expect("the sample starts").success());
     };
-    // The first picture of a process is traced in many bands, the next ones in few.
+    // The first picture of a process is traced in many bands, the following ones in few.
     ["0..1", "1..2", "2..3"].into_iter().for_each(run);
     let cut = fs::read(&file).unwrap();
     fs::remove_file(&file).unwrap();
@@ -308,7 +308,7 @@ fn a_colour_that_is_no_number_is_added_as_black_and_told() {
     assert!(mean.pixels.iter().flatten().all(|value| value.is_finite()));
 }
 
-/// Every float is added exactly, or rounded to a multiple of 2^-64, whatever its sign and size.
+/// Every float is added exactly, or rounded to a multiple of 2^-64, for every sign and size.
 #[test]
 fn the_shader_adds_every_kind_of_float_as_whole_numbers() {
     let declarations = "#include \"common/random.glsl\"\n#include \"common/sum.glsl\"";
@@ -340,7 +340,7 @@ fn the_shader_adds_every_kind_of_float_as_whole_numbers() {
         let exponent = 1 + (pixel as u32 % 157) % 157;
         let key = (before as u128 >> 32) as u32;
         let value = f32::from_bits(key & 0x807f_ffff | exponent << 23);
-        // 24 bits that a power of two scales: exact in f64, and whole unless it is tiny.
+        // 24 bits scaled by a power of two: exact in f64, and an integer unless tiny.
         let units = (f64::from(value) * 2f64.powi(64)).abs();
         let units = (units + 0.5).floor() as i128 * if value < 0.0 { -1 } else { 1 };
         assert_eq!(sum.wrapping_sub(before), units, "{value}");
@@ -368,7 +368,7 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(&filter, 1, &[other]);
     let scene = with(&["--size", "24x16", "--scene", "samples/assets/chess.obj"]);
     refused(&scene, 1, &["'camera eye' is '-5.6,4.8,9.2' in it"]);
-    // Another scene has another camera, too, but that is not what is wrong.
+    // Another scene also has another camera, but that is not the reported fault.
     let scene = with(&["--size", "24x16", "--scene", "samples/assets/box_on_plane.obj"]);
     refused(&scene, 1, &["the CRC-32 of 'chess.mtl' is ", " in it and nothing here"]);
     if has_worst_arithmetic() {
@@ -379,7 +379,7 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(&unordered, 1, &["--unordered is false in it and true here"]);
     let lost = ["--headless", "--samples", "0..4"];
     refused(&lost, 2, &["--samples would store nothing: add --out for the picture or --save"]);
-    // Not even a file of the same command is written over.
+    // Not even a file of the same command is overwritten.
     let again = ["--size", "24x16", "--samples", "0..2", "--save", name];
     refused(&again, 1, &["exists: --resume '", "part' continues it"]);
     fs::write(parts.path("text"), "Once upon a time").unwrap();

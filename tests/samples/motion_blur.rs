@@ -1,5 +1,5 @@
-//! 23_motion_blur: what is seen while the shutter is open is what closed forms and many moments say, and without a
-//! shutter the picture is its parent's.
+//! 23_motion_blur: pictures with an open shutter, compared with closed forms and with many moments; without a
+//! shutter, the picture equals the parent's.
 
 mod claims;
 mod hard;

@@ -11,14 +11,14 @@ use run::{Run, bits, command, expected, refusal, render, root};
 
 const NAME: &str = "07_multi_closest_hit";
 const SIZE: &str = "240x150";
-/// Records an instance: for its look and for inspection.
+/// Records per instance: for its look and for inspection.
 const RAY_TYPES: u32 = 2;
 
 fn show(view: &str) -> Run {
     render(NAME, SIZE, &["--set", &format!("show={view}")])
 }
 
-/// The group that an instance of the chess set should take, by the number in `push.glsl`.
+/// The group an instance of the chess set should use, by the number in `push.glsl`.
 fn group(scene: &Scene, instance: &Instance) -> u32 {
     let mesh = scene.model.meshes[instance.mesh].name.as_str();
     match scene.model.materials[instance.material].name.as_str() {
@@ -36,7 +36,7 @@ fn every_ray_takes_the_record_that_the_formula_gives() {
     let scene = Scene::chess().unwrap();
     let [hits, directions, groups, records] =
         ["hit", "ray direction", "group", "record"].map(|view| show(view).picture);
-    // The reference says which instance a ray hits.
+    // The reference gives the instance a ray hits.
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
@@ -59,7 +59,7 @@ fn every_ray_takes_the_record_that_the_formula_gives() {
 #[test]
 fn the_data_of_a_record_reaches_its_own_piece_and_no_other() {
     let [before, hits] = ["picture", "hit"].map(|view| show(view).picture);
-    // A board, the screen, a black and a white piece: one instance for each group.
+    // The board, the screen, a black and a white piece: one instance for each group.
     for (instance, setting) in [
         (1, "tint=0.1,0.3,0.2"),
         (3, "tint=0.2,0.5,0.9"),
@@ -76,7 +76,7 @@ fn the_data_of_a_record_reaches_its_own_piece_and_no_other() {
             own += usize::from(is_own);
             differ += usize::from(before != after);
         }
-        // Dust, or a pixel on the shady side, may be the same under another tint or roughness.
+        // Dust, or a pixel in shadow, may be the same with another tint or roughness.
         assert!(own > 150 && differ > own * 3 / 4, "{setting}: {differ} of {own} pixels differ");
     }
 }
@@ -85,7 +85,7 @@ fn the_data_of_a_record_reaches_its_own_piece_and_no_other() {
 fn data_changes_between_frames_and_the_pipeline_stays() {
     let plain = render(NAME, SIZE, &[]);
     let (red, white) = ("0.6,0.05,0.04", "0.83,0.78,0.7");
-    // `--compare` renders the values in turns and ends with the first.
+    // `--compare` renders the values alternately and ends with the first.
     for (first, second) in [(red, white), (white, red)] {
         let compare = format!("tint={first}|{second}");
         let turns = ["--set", "instance=22", "--compare", &compare, "--frames", "2"];
@@ -94,7 +94,7 @@ fn data_changes_between_frames_and_the_pipeline_stays() {
         let alone = render(NAME, SIZE, &["--set", "instance=22", "--set", &tint]);
         assert!(bits(&turns.picture) == bits(&alone.picture), "{first} after {second}");
         assert_eq!(first == white, bits(&turns.picture) == bits(&plain.picture));
-        // A pipeline that was made again would have added its stages and groups once more.
+        // A recreated pipeline would have added its stages and groups again.
         assert_eq!(turns.report["stages"], plain.report["stages"]);
         assert_eq!(turns.report["groups"], json!(7));
     }
@@ -107,7 +107,7 @@ fn table(report: &Value) -> Vec<&str> {
     lines.iter().map(|line| line.as_str().expect("a line of text")).collect()
 }
 
-/// Every whole number of a line, in order.
+/// All whole numbers of a line, in order.
 fn numbers(line: &str) -> Vec<u64> {
     line.split(|c: char| !c.is_ascii_digit()).filter_map(|word| word.parse().ok()).collect()
 }
@@ -125,7 +125,7 @@ fn the_printed_table_is_the_layout_for_the_device_s_limits() {
     let scene = Scene::chess().unwrap();
     let records = scene.instances.len() * RAY_TYPES as usize;
     expected::hold_exact("07_multi_closest_hit/table", json!({ "records": records }));
-    // The ray generation shader's record holds the first pixel of a band.
+    // The ray generation shader's record contains the first pixel of a band.
     let layout = sbt::layout(&limits, [1, 1, records, 0], [8, 0, 24, 0]).unwrap();
     let address = report["chapter"]["address"].as_u64().unwrap();
     for ((region, line), count) in layout.regions.iter().zip(&table[2..]).zip([1, 1, records, 0]) {
@@ -143,14 +143,14 @@ fn the_printed_table_is_the_layout_for_the_device_s_limits() {
             let &[offset, geometry, stride, ray_type, record, byte] = sum else { panic!("{line}") };
             assert_eq!(offset + geometry * stride + ray_type, record, "{line}");
             assert_eq!(byte, hit.offset + record * hit.stride, "{line}");
-            // Each record has one way to it, and comes in its turn.
+            // Each record is reached in one way, and they come in order.
             assert_eq!(record, next, "{line}");
             next += 1;
         }
     }
     assert_eq!(next, records as u64);
 
-    // The page shows the table of the software driver.
+    // The page shows the software driver's table.
     if report["device"].as_str().unwrap().starts_with("llvmpipe") {
         let page = fs::read_to_string(root().join(format!("docs/{NAME}.md"))).unwrap();
         let (_, shown) = page.split_once(&format!("```text\n{}\n", table[0])).expect("the table");

@@ -1,4 +1,4 @@
-//! 15_opacity_micromaps: the picture of 03 at every level, no state that is wrong, and what is saved.
+//! 15_opacity_micromaps: the picture of 03 at every level, correct states, and the savings.
 
 use std::fmt::Write;
 use std::fs;
@@ -31,10 +31,10 @@ const NAME: &str = "15_opacity_micromaps";
 const PARENT: &str = "03_any_hit";
 const SIZE: &str = "96x60";
 const LEVELS: [&str; 8] = ["none", "0", "1", "2", "3", "4", "5", "6"];
-/// The view of this chapter, for 03.
+/// This chapter's view, for 03.
 const BEHIND: [&str; 3] =
     ["camera eye=2.4,2.1,-7.4", "camera target=0.3,1.2,-2", "field of view=40"];
-/// The view of 03, for this chapter.
+/// 03's view, for this chapter.
 const BEFORE: [&str; 3] =
     ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
 
@@ -107,7 +107,7 @@ fn four_samples_give_another_picture() {
 fn fewer_calls_read_the_texture_the_finer_the_level() {
     let calls = counted("calls", "none");
     let mut held = json!({ "calls": calls, "pixels": 96 * 60 });
-    // A call is made for each candidate, whatever it has to do.
+    // Each candidate causes a call, however little it does.
     assert_eq!(counted("calls", "6"), calls);
     let mut before = calls;
     for level in LEVELS {
@@ -148,8 +148,8 @@ fn states_by_level() {
     expected::hold_exact("15_opacity_micromaps/states", Value::Object(held));
 }
 
-/// Results of the specification's function for the middles of the 64 micro-triangles of level 3: row by row of
-/// growing v, and in a row by growing u.
+/// The results of the specification's function for the middles of the 64 micro-triangles of level 3: in rows
+/// of increasing v, and within a row by increasing u.
 const LEVEL_3: [u32; 64] = [
     0, 1, 2, 7, 8, 9, 10, 31, 32, 33, 34, 39, 40, 41, 42, //
     3, 4, 5, 6, 11, 30, 29, 28, 35, 36, 37, 38, 43, //
@@ -166,7 +166,7 @@ fn the_order_is_the_specification_s() {
     let mut places: Vec<_> = (0..64)
         .map(|index| {
             let sum = |i: usize| curve::corners(index, 3).iter().map(|w| w[i]).sum::<i32>();
-            // A middle's weights in units of a 24th; a row has those of 3k to 3k + 2.
+            // A middle's weights in 24ths; a row has those of 3k to 3k + 2.
             (sum(2) / 3, sum(1), index)
         })
         .collect();
@@ -216,7 +216,7 @@ fn the_shader_finds_each_micro_triangle_and_never_leaves_the_triangle() {
     let start = text.find("uint micro_triangle").unwrap();
     let (function, _) = text[start..].split_once("\n}\n").unwrap();
     let function = format!("{function}\n}}\n");
-    // A row for each of 16 columns of u, more than the triangle on every side, and what is no number.
+    // A row for each of 16 columns of u, beyond the triangle on every side, and NaN.
     let body = "
         vec2 uv = vec2(at) / vec2(37.0, 23.0) * 1.2 - 0.1;
         if (at.x == 0) uv.x = uintBitsToFloat(0x7fc00000u);
@@ -231,7 +231,7 @@ fn the_shader_finds_each_micro_triangle_and_never_leaves_the_triangle() {
         assert!(pixel.iter().all(|&index| index >= 0.0), "{i}: {pixel:?}");
         let (x, y) = (i % 38, i / 38);
         let [u, v] = [x as f32 / 37.0 * 1.2 - 0.1, y as f32 / 23.0 * 1.2 - 0.1];
-        // Away from the edges of the finest, whose sides are a 64th.
+        // Away from the edges of the finest ones, whose sides are 1/64.
         let near = |w: f32| (64.0 * w - (64.0 * w).round()).abs() < 1e-3;
         if x == 0
             || y == 0
@@ -248,7 +248,7 @@ fn the_shader_finds_each_micro_triangle_and_never_leaves_the_triangle() {
             assert_eq!(index as u32, micro_triangle(u, v, 2 * k as u32), "{u} {v}");
         }
     }
-    // The middle of each leads back to it.
+    // The middle of each is mapped back to it.
     for level in 0..=FINEST {
         for index in 0..curve::count(level) {
             let corners = curve::corners(index, level);
@@ -271,7 +271,7 @@ fn case(what: &'static str, texture: (u32, u32, Vec<u8>), corners: [[f32; 2]; 3]
     Case { what, alpha, corners: corners.map(Vec2::from_array) }
 }
 
-/// Soft blobs, on a texture that no power of two fits.
+/// Soft blobs on a texture whose size is not a power of two.
 fn blobs(width: u32, height: u32) -> (u32, u32, Vec<u8>) {
     let alpha = |i: u32| {
         let wave = |x: u32, n: u32| (f64::from(x) / f64::from(n) * std::f64::consts::TAU).cos();
@@ -310,13 +310,14 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// The texture coordinates that `surface_at` of `scene.glsl` gives, with the same roundings.
+/// The texture coordinates computed by `surface_at` of `scene.glsl`, with the same roundings.
 fn interpolated(corners: [Vec2; 3], u: f32, v: f32) -> Vec2 {
     (1.0 - u - v) * corners[0] + u * corners[1] + v * corners[2]
 }
 
-/// Weights of hits at the corners, the middles of the edges and the middle of each micro-triangle, each moved a
-/// little: by nothing, by roundings, by as much as a hit may lie outside. Beyond that the shader asks no state.
+/// The weights of hits at the vertices, the middles of the edges and the middle of each micro-triangle, each
+/// displaced slightly: by nothing, by roundings, by as much as a hit may be outside. Beyond that, the shader
+/// reads no state.
 fn weights(level: u32) -> impl Iterator<Item = (f32, f32)> {
     const PARTS: [[i32; 3]; 7] =
         [[6, 0, 0], [0, 6, 0], [0, 0, 6], [3, 3, 0], [0, 3, 3], [3, 0, 3], [2, 2, 2]];
@@ -336,8 +337,8 @@ fn weights(level: u32) -> impl Iterator<Item = (f32, f32)> {
     (0..curve::count(level)).flat_map(of).filter(is_inside)
 }
 
-/// Number of a rule's answers that are certain, and of those that the any-hit shader contradicts somewhere. Each
-/// place is looked up where it is, and as far beside it as a device's filter may look.
+/// The number of a rule's certain states, and of those that the any-hit shader contradicts somewhere. Each
+/// place is looked up exactly, and as far next to it as a device's filter may look.
 fn judged(case: &Case, level: u32, rule: Rule) -> (u64, u64) {
     let states = classify::triangle(&case.alpha, case.corners, level, rule);
     let (mut certain, mut wrong) = (0, 0);
@@ -349,7 +350,7 @@ fn judged(case: &Case, level: u32, rule: Rule) -> (u64, u64) {
         };
         let uv = interpolated(case.corners, u, v).as_dvec2();
         let beside = [DVec2::ZERO, DVec2::ONE, DVec2::NEG_ONE, DVec2::new(1.0, -1.0)][i % 4];
-        // In 64 bits a lookup is off by far less than a state's distance from the threshold.
+        // In 64 bits, the error of a lookup is far smaller than a state's distance from the threshold.
         let alpha = case.alpha.lookup(uv + beside * alpha::SUBTEXEL / case.alpha.size());
         certain += 1;
         wrong += u64::from((alpha >= alpha::THRESHOLD) != opaque);
@@ -384,8 +385,8 @@ fn no_state_by_the_bound_is_wrong_at_any_level() {
     expected::hold_exact("15_opacity_micromaps/rules", held);
 }
 
-/// Roundings allowed by the bound, in exact arithmetic: the search ends in a micro-triangle that the hit is no
-/// farther from, and the shader's texture coordinates are no farther from the exact ones.
+/// The roundings allowed by the bound, in exact arithmetic: the search ends in a micro-triangle that is no
+/// farther from the hit, and the shader's texture coordinates are no farther from the exact ones.
 #[test]
 fn the_margins_hold_all_roundings() {
     let mut random = Random(15);

@@ -1,4 +1,5 @@
-//! 30_own_tree: the picture of 16 without an acceleration structure, and every hit held to the reference.
+//! 30_own_tree: the picture of 16 without an acceleration structure, and every hit compared with the
+//! reference.
 
 use common::app::Picture;
 use common::scene::Scene;
@@ -14,7 +15,7 @@ fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// Number of pixels in which two pictures differ at all.
+/// The number of pixels in which two pictures differ at all.
 fn differing(a: &Picture, b: &Picture) -> usize {
     a.pixels.iter().zip(&b.pixels).filter(|(a, b)| a != b).count()
 }
@@ -35,8 +36,8 @@ fn every_hit_agrees_with_the_reference() {
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
 }
 
-/// 16 asks the device, whose triangle test rounds in its own way: at edges another triangle may be met, and
-/// the weights of a corner differ in the last place everywhere.
+/// 16 uses the device, whose triangle test rounds differently: at edges another triangle may be hit, and the
+/// weights differ in the last place everywhere.
 #[test]
 fn it_is_the_picture_of_16() {
     run::needs!("16_ray_query");
@@ -49,7 +50,7 @@ fn it_is_the_picture_of_16() {
     assert!(count < own.pixels.len() / 1000, "{count}");
 }
 
-/// A device that builds nothing, and one that names nodes and triangles at random.
+/// A device that builds nothing, and one whose nodes and triangles are random.
 #[test]
 fn what_a_device_built_that_is_not_a_tree_is_refused_in_a_line() {
     let nothing = "Child none = Child(vec3(0.0), 0, vec3(0.0), 0);";
@@ -73,13 +74,13 @@ fn what_a_device_built_that_is_not_a_tree_is_refused_in_a_line() {
     }
 }
 
-/// A tree decides which boxes are looked at, never what is met.
+/// A tree only affects which boxes are tested, never the hit.
 #[test]
 fn no_tree_and_no_node_changes_the_picture() {
     let own = chapter().shared_picture();
     for set in ["tree=binned", "tree=device", "nodes=36 bytes"] {
         let count = differing(&own, &chapter().sets(&[set]).picture());
-        // Two triangles may be met at the same distance: then the first one found counts.
+        // Two triangles may be hit at the same distance; then the first one found counts.
         assert!(count <= own.pixels.len() / 2000, "{set}: {count} pixels differ");
     }
 }
@@ -103,7 +104,7 @@ fn tests_give_nearly_the_same_picture(sets: &[&str]) {
     }
 }
 
-/// Steps are counted, boxes have edges, and the walk of one ray is drawn step by step.
+/// The views count steps, show the edges of boxes, and draw the walk of one ray step by step.
 #[test]
 fn the_views_show_the_tree() {
     let sky = |picture: &Picture| picture.pixels[0];

@@ -1,5 +1,5 @@
-//! 11_path_tracing: that the mean of the paths is the light that closed forms give, and that no choice which
-//! shall only save time changes it.
+//! 11_path_tracing: the mean of the paths equals the light in closed form, and choices that only save time do
+//! not change it.
 
 mod by_hand;
 pub mod closed_forms;
@@ -17,7 +17,7 @@ fn chapter(size: &str) -> Chapter {
     Chapter::new(NAME).size(size)
 }
 
-/// A picture by random numbers in the place of Sobol's points: the samples of a pixel are independent.
+/// A picture with random numbers instead of Sobol's points: the samples of a pixel are independent.
 fn picture_by_chance(size: &str, frames: u32, sets: &[&str]) -> Picture {
     let points = "uvec2 point = sobol(owen(sample_index, key.z));\n    \
                   return vec2(to_unit(owen(point.x, key.x)), to_unit(owen(point.y, key.y)));";
@@ -27,13 +27,13 @@ fn picture_by_chance(size: &str, frames: u32, sets: &[&str]) -> Picture {
     chapter(size).shaders(shaders.path()).frames(frames).sets(sets).picture()
 }
 
-/// Every colour of every pixel.
+/// All colours of all pixels.
 fn colors(picture: &Picture) -> impl Iterator<Item = f64> {
     picture.pixels.iter().flat_map(|pixel| [0, 1, 2].map(|k| f64::from(pixel[k])))
 }
 
-/// The mean of independent values, and how far it may be off by chance: four standard errors, which chance
-/// exceeds once in 16,000 times.
+/// The mean of independent values, and its confidence interval: four standard errors, which are exceeded at
+/// random once in 16,000 times.
 struct Estimate {
     mean: f64,
     deviation: f64,
@@ -59,7 +59,7 @@ impl Estimate {
     }
 }
 
-/// One number a pixel: the mean of its colours, which are not independent.
+/// One number per pixel: the mean of its colours, which are not independent.
 fn brightness(picture: &Picture) -> Vec<f64> {
     let mean = |pixel: &[f32; 4]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
     picture.pixels.iter().map(mean).collect()
@@ -79,14 +79,14 @@ fn the_picture_repeats() {
 #[test]
 #[ignore = "nightly: 64 samples a pixel; quick: path_tracing::closed_forms::roulette_ends_a_path_that_has_no_end_and_keeps_its_mean"]
 fn roulette_changes_no_mean() {
-    // Of other seeds, so that no chance is shared.
+    // With other seeds, so that the errors are independent.
     let on = chapter(SIZE).frames(64).sets(&["depth=256"]).picture();
     let off = chapter(SIZE).frames(64).sets(&["depth=64", "roulette=off", "seed=1"]).picture();
     let differences: Vec<f64> =
         brightness(&on).iter().zip(brightness(&off)).map(|(on, off)| on - off).collect();
     let estimate = Estimate::of(&differences);
     estimate.is(0.0, "on - off");
-    // It could be seen: a hundredth of the light that arrives by bounces is more than that confidence.
+    // The test is sensitive enough: a hundredth of the light from bounces exceeds that confidence interval.
     let bounced =
         Estimate::of(&brightness(&chapter(SIZE).frames(64).sets(&["show=bounced"]).picture())).mean;
     assert!(estimate.confidence < 0.02 * bounced, "{} of {bounced}", estimate.confidence);
@@ -136,7 +136,7 @@ fn a_changed_control_starts_again() {
 
 #[test]
 fn sums_of_integers_and_of_floats_begin_alike() {
-    // The mean of one sample is the sample, however it is added up. Only what is below 2^-32 is lost.
+    // The mean of one sample is the sample, however it is added up. Only digits below 2^-32 are lost.
     let [integers, floats] =
         ["sum=integers", "sum=floats"].map(|sum| chapter(SIZE).frames(1).sets(&[sum]).picture());
     assert!(colors(&integers).zip(colors(&floats)).all(|(a, b)| (a - b).abs() < 0.5f64.powi(31)));

@@ -1,4 +1,4 @@
-//! `--pixel`: the numbers that it prints are those of the picture, to the bit.
+//! `--pixel`: the printed numbers equal those of the picture, bit for bit.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use common::app::Picture;
 use run::{command, copy_of_shaders, render_by};
 
 const SIZE: &str = "48x30";
-/// A pixel that sees a piece, in 05 and 06.
+/// A pixel that shows a piece in 05 and 06.
 const PIXEL: [usize; 2] = [24, 20];
 
 /// Output of `--pixel`.
@@ -20,11 +20,11 @@ fn printed(shaders: &Path, name: &str) -> String {
     String::from_utf8(output.stdout).expect("the text is UTF-8")
 }
 
-/// The decimal numbers of the row with this name, of each ray in order.
+/// The decimal numbers of the row with this name, for each ray in order.
 fn rows(text: &str, name: &str) -> Vec<Vec<f32>> {
     let row = |line: &str| {
         let rest = line.trim_start().strip_prefix(name)?.trim_start();
-        // A hit of which no shader hears has no numbers.
+        // A hit without a shader call has no numbers.
         let (decimal, _) = rest.trim_start_matches("t ").split_once(" = ")?;
         Some(decimal.split(", ").map(|number| number.parse().expect("a number")).collect())
     };

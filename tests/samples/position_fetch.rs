@@ -1,5 +1,5 @@
-//! 10_position_fetch: corners from the acceleration structure are those of the model, to the bit, and what a
-//! point computed from them is worth.
+//! 10_position_fetch: vertices from the acceleration structure equal the model's, bit for bit; and the
+//! accuracy of a point computed from them.
 
 use std::fs;
 
@@ -28,7 +28,7 @@ fn both_ways_give_the_same_bits() {
         let same = if show == "picture" { same_colors } else { same_answers };
         same(show, NAME, &seen[0], &seen[1]);
     }
-    // What is left of a vertex is enough for the very picture of 02.
+    // The remaining vertex data is enough for exactly the picture of 02.
     let [here, basic] = [NAME, "02_basic"].map(|name| render(name, "120x75", &[]).picture);
     same_colors("10 and 02", NAME, &here, &basic);
 }
@@ -36,7 +36,7 @@ fn both_ways_give_the_same_bits() {
 #[test]
 fn positions_cost_no_memory_of_ours() {
     run::needs!(NAME);
-    // How large a structure is that has positions to tell is the driver's affair: some store them again.
+    // The size of a structure with fetchable positions depends on the driver: some store them a second time.
     let bytes = |positions: &str| {
         let positions = format!("positions={positions}");
         let report = render(NAME, "8x8", &["--set", &positions]).report;
@@ -48,7 +48,7 @@ fn positions_cost_no_memory_of_ours() {
     let saved = bytes("buffer") - bytes("acceleration structure");
     println!("{vertices} vertices: {saved} bytes less");
     expected::hold("10_position_fetch/memory", json!({ "vertices": vertices, "saved": saved }));
-    // Twelve bytes a vertex, less an address a mesh and what alignment takes.
+    // Twelve bytes per vertex, minus an address per mesh and the alignment.
     let most = 12 * vertices as i64;
     assert!(saved <= most && saved > most - 4096, "{saved} of {most}");
 }
@@ -56,13 +56,13 @@ fn positions_cost_no_memory_of_ours() {
 /// Distance of a point from the exact intersection of its ray with the triangle's plane, in ULP of 1.
 #[derive(Clone, Copy)]
 struct Error {
-    /// The distance of both.
+    /// The distance between the two points.
     whole: f64,
-    /// The part across the plane: what a ray that starts there has to overcome.
+    /// The component perpendicular to the plane, which a ray that starts there has to overcome.
     off: f64,
 }
 
-/// Points by both ways, one for each ray of a picture that hits.
+/// Points computed both ways, one for each ray of a picture that hits.
 #[derive(Default)]
 struct Errors {
     by_corners: Vec<Error>,
@@ -70,7 +70,7 @@ struct Errors {
 }
 
 impl Errors {
-    /// Medians and worst of both parts: by corners, then along the ray.
+    /// The medians and maxima of both parts: by vertices, then along the ray.
     fn spread(&self) -> [[(f64, f64); 2]; 2] {
         [&self.by_corners, &self.along_the_ray].map(|errors| {
             [|error: &Error| error.whole, |error: &Error| error.off].map(|part| {
@@ -82,7 +82,7 @@ impl Errors {
     }
 }
 
-/// The figures of a row, under names that begin with where it is of.
+/// The figures of a row, with its place as a prefix.
 fn figures_of(at: f64, [corners, ray]: &[[(f64, f64); 2]; 2]) -> Map<String, Value> {
     let parts = [
         ("corners", corners[0]),
@@ -102,7 +102,7 @@ fn row(at: f64, [corners, ray]: &[[(f64, f64); 2]; 2]) -> String {
     format!("| {at:e} | {} |", cells.join(" | "))
 }
 
-/// Renders a scene from a camera, and finds out where its rays end.
+/// Renders a scene from a camera, and computes the end points of its rays.
 fn errors(scene: &Scene, camera: &Camera, file: Option<&str>) -> Errors {
     let vector = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
     let sets = [
@@ -135,7 +135,7 @@ fn errors(scene: &Scene, camera: &Camera, file: Option<&str>) -> Errors {
             let apart = Vec3A::new(x, y, z).as_dvec3() - exact;
             Error { whole: apart.length() / ULP, off: normal.dot(apart).abs() / ULP }
         };
-        // A ray that grazes its triangle has no point to speak of.
+        // A ray that grazes its triangle has no well-defined point.
         if normal.dot(direction.normalize()).abs() > 0.1 {
             found.by_corners.push(error(here));
             found.along_the_ray.push(error(there));
@@ -183,9 +183,11 @@ fn points_from_afar(distances: &[f64]) -> Map<String, Value> {
         println!("{}", row(distance, &spread));
         table.extend(figures_of(distance, &spread));
         let [by_corners, along_the_ray] = spread;
-        // Coordinates reach 6, where a last place is 4 ULP of 1; the device's weights are off along the plane.
+        // Coordinates reach 6, where a last place is 4 ULP of 1; errors of the device's weights are along the
+        // plane.
         assert!(by_corners[1].1 < 8.0, "{distance}: {by_corners:?}");
-        // The ray's origin and direction have 24 bits, as has its t: off by so much of the distance.
+        // The ray's origin and direction have 24 bits, and so has its t: the error is proportional to the
+        // distance.
         assert!(along_the_ray[1].0 > distance / 100.0, "{distance}: {along_the_ray:?}");
         assert!(along_the_ray[0].1 < 16.0 * distance, "{distance}: {along_the_ray:?}");
     }
@@ -212,7 +214,7 @@ fn points_on_large_triangles(sizes: &[f64]) -> Map<String, Value> {
     let mut table = Map::new();
     for &size in sizes {
         let file = folder.path().join("square.obj");
-        // A little crooked, so that no product is exact.
+        // Slightly crooked, so that no product is exact.
         let corners = [[1.1, 1.0], [1.0, -1.3], [-1.2, -1.0], [-1.0, 1.4]];
         let vertex = |[x, z]: [f64; 2]| format!("v {} 0 {}\n", x * size, z * size);
         let text = corners.map(vertex).concat() + "f 1 2 3\nf 1 3 4\n";
@@ -222,9 +224,9 @@ fn points_on_large_triangles(sizes: &[f64]) -> Map<String, Value> {
         println!("{}", row(size, &spread));
         table.extend(figures_of(size, &spread));
         let [by_corners, along_the_ray] = spread;
-        // Weights have 24 bits of 1, which is so much of the triangle's size.
+        // Weights have 24 bits relative to 1, so the error is proportional to the triangle's size.
         assert!(by_corners[0].0 > size / 10.0, "{size}: {by_corners:?}");
-        // The ground is level: nothing but the rounding of the exact point, in f64.
+        // The ground is level, so the only error is the rounding of the exact point in f64.
         assert!(by_corners[1].1 < 1e-6, "{size}: {by_corners:?}");
         assert!(along_the_ray[0].0 < 1.0, "{size}: {along_the_ray:?}");
     }

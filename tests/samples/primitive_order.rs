@@ -1,4 +1,4 @@
-//! 38_primitive_order: every order gives one picture, and what each makes of the tree.
+//! 38_primitive_order: every order gives the same picture, and its effect on the tree.
 
 use common::gpu::ShaderEnum;
 use common::gpu::order::Bounds;
@@ -23,14 +23,14 @@ use tree::Node;
 
 const NAME: &str = "38_primitive_order";
 const SIZE: &str = "120x75";
-/// Number of spheres that the chapter shows.
+/// The number of spheres in the chapter.
 const COUNT: u32 = 10_000;
 
 fn chapter(size: &str) -> Chapter {
     Chapter::new(NAME).size(size)
 }
 
-/// The word of an order.
+/// The name of an order.
 fn word(order: Order) -> &'static str {
     Order::LAYOUT.words[order as usize]
 }
@@ -85,7 +85,7 @@ fn orders_give_the_same_picture(scene: &[&str], copies: &[&str]) {
     }
 }
 
-/// A plinth stands on the board, a tower is made of boxes: the same distance but for its rounding.
+/// A plinth is on the board, a tower is made of boxes: distances are equal except for rounding.
 #[test]
 fn where_shapes_touch_order_changes_only_ties() {
     let view = |order| chapter(SIZE).sets(&["scene=chess", "show=hit", order]).picture();
@@ -123,7 +123,7 @@ fn every_order_is_a_permutation() {
     }
 }
 
-/// Sixteen points a side, a thousandth of the cube from the corners of the curves' cells.
+/// Sixteen points per side, a thousandth of the cube from the corners of the curves' cells.
 fn lattice() -> Vec<[i32; 3]> {
     let side = 0..16;
     let line = |x: i32, y: i32| side.clone().map(move |z| [x, y, z]);
@@ -146,7 +146,7 @@ fn hilberts_curve_goes_from_neighbour_to_neighbour_and_mortons_jumps() {
         visited.windows(2).map(step).collect::<Vec<_>>()
     };
     assert!(steps(Order::Hilbert).into_iter().all(|step| step == 1));
-    // From the last cell of a half to the first of the other: 1 along x, and back along y and z.
+    // From the last cell of one half to the first of the other: 1 along x, and back along y and z.
     let longest = steps(Order::Morton).into_iter().max();
     assert_eq!(longest, Some(1 + 15 + 15));
     // Eight in a row are the corners of a cube.
@@ -157,7 +157,7 @@ fn hilberts_curve_goes_from_neighbour_to_neighbour_and_mortons_jumps() {
     }
 }
 
-/// Walks the tree and holds each box to those within it; returns the primitives' boxes in their order.
+/// Walks the tree and compares each box with those inside it; returns the primitives' boxes in order.
 fn leaves(nodes: &[Node]) -> Vec<Bounds> {
     let mut found = Vec::new();
     for (i, node) in nodes.iter().enumerate() {
@@ -180,15 +180,15 @@ fn the_tree_halves_the_list() {
         assert_eq!(nodes.len(), 2 * count - 1);
         assert_eq!(leaves(&nodes), bounds[..count]);
         if count > 1 {
-            // k boxes have a tree of 2k - 1 nodes, which here begins at 1.
+            // k boxes have a tree of 2k - 1 nodes, numbered from 1.
             assert_eq!(nodes[1].next as usize / 2, count.div_ceil(2));
         }
     }
     assert!(tree::nodes(&[]).is_empty());
 }
 
-/// Lines that lie anywhere, of which the formula speaks: through two points of a sphere around the root,
-/// which is how often a line of a uniform measure meets what lies within.
+/// The random lines assumed by the formula: through two points of a sphere around the root. A uniformly
+/// distributed line hits everything inside with the same probability.
 #[test]
 fn the_expected_tests_are_what_lines_find() {
     let bounds = in_order(Order::Morton, &ball()[..300]);
@@ -216,11 +216,11 @@ fn the_expected_tests_are_what_lines_find() {
     }
     let (found, expected) = (tests as f64 / lines as f64, tree::expected_tests(&nodes));
     println!("{found:.2} found, {expected:.2} expected");
-    // The mean of 20,000 counts that spread by half of it is known to a third of a percent.
+    // The mean of 20,000 counts with a deviation of half of it is accurate to a third of a percent.
     assert!((found / expected - 1.0).abs() < 0.015, "{found} {expected}");
 }
 
-/// Tests whether a ray meets a node's box before `end`.
+/// Returns whether a ray hits a node's box before `end`.
 fn meets(node: &Node, origin: DVec3, direction: DVec3, end: f64) -> bool {
     let (low, high) = (node.low.as_dvec3() - origin, node.high.as_dvec3() - origin);
     let (a, b) = (low / direction, high / direction);
@@ -228,12 +228,12 @@ fn meets(node: &Node, origin: DVec3, direction: DVec3, end: f64) -> bool {
     enter <= leave && leave >= 0.0 && enter <= end
 }
 
-/// Number of boxes that a ray is tested against.
+/// The number of boxes a ray is tested against.
 pub fn tested(nodes: &[Node], origin: DVec3, direction: DVec3, end: f64) -> usize {
     tested_leaves(nodes, origin, direction, end).0
 }
 
-/// The same, and the primitives whose boxes it meets, in the order of the list.
+/// The same, and the primitives whose boxes it hits, in the order of the list.
 pub fn tested_leaves(
     nodes: &[Node],
     origin: DVec3,
@@ -270,7 +270,7 @@ fn better_orders_are_expected_to_test_fewer_boxes() {
     assert!(of("chance") > 2.0 * of("along-x"));
     assert!(of("along-x") > 2.0 * of("Morton"));
     assert!(of("Morton") > of("Hilbert") && of("Hilbert") > of("halves"));
-    // The ball comes in the order of a random generator.
+    // The ball's spheres are in the order of a random generator.
     assert!((of("given") / of("chance") - 1.0).abs() < 0.1);
     expected::hold_exact("38_primitive_order/expected", Value::Object(held));
 }
@@ -296,7 +296,7 @@ fn the_view_counts_what_the_tree_costs_each_ray() {
             ours += tested(&nodes, ray.origin, ray.direction, end) as f64;
             theirs += f64::from(count[3]);
         }
-        // At a box's edge 32 bits and 64 may differ, and then both halves of the box are tested or not.
+        // At a box's edge 32 bits and 64 may differ, which decides whether both halves of the box are tested.
         assert!((theirs / ours - 1.0).abs() < 1e-3, "{set}: {theirs}, {ours} in 64 bits");
         println!("{set}: {mean:.1} tests a ray");
         held.insert(word(order).replace(' ', "-"), mean.into());

@@ -1,4 +1,5 @@
-//! 19_ray_cones: what a footprint is, that it is always a number, and how far each is from 1,024 rays a pixel.
+//! 19_ray_cones: the definition of a footprint, its finiteness, and the difference of each from 1,024 rays
+//! per pixel.
 
 #[path = "../../samples/19_ray_cones/floor.rs"]
 mod floor;
@@ -19,15 +20,15 @@ fn chapter(size: &str) -> Chapter {
     Chapter::new(NAME).size(size)
 }
 
-/// A view of the bare floor, from a distance and at an angle to it, aside of the texture's axes; and `slid` pixels of
-/// the picture's height aside of that.
+/// A view of the bare floor, from a distance and at an angle, not along the texture's axes; displaced
+/// sideways by `slid` pixels of the picture's height.
 fn view(distance: f64, angle: f64, slid: f64) -> Vec<String> {
     let height = f64::from(floor::chess().expect("the scene").bounds().0.y);
     let angle = angle.to_radians();
     let aside = DVec3::new(-0.6, 0.0, 0.8);
     let slid = slid * pixel() * distance * aside;
     let target = DVec3::new(-1000.3, height, 100.7) + slid;
-    // Straight from above, the least slant still says which way is up.
+    // Straight from above, a minimal slant still determines the up direction.
     let away = (angle.cos() + 1e-6) * DVec3::new(0.8, 0.0, 0.6) + DVec3::new(0.0, angle.sin(), 0.0);
     let eye = target + distance * away;
     let point = |name: &str, at: DVec3| format!("camera {name}={},{},{}", at.x, at.y, at.z);
@@ -35,15 +36,15 @@ fn view(distance: f64, angle: f64, slid: f64) -> Vec<String> {
 }
 
 const FIELD_OF_VIEW: f64 = 10.0;
-/// The size of the pictures from there.
+/// The size of the pictures in that view.
 const SMALL: &str = "48x30";
 
-/// Width of a pixel at distance 1.
+/// The width of a pixel at distance 1.
 fn pixel() -> f64 {
     2.0 * (FIELD_OF_VIEW / 2.0).to_radians().tan() / 30.0
 }
 
-/// A picture of the texture's colours alone, or of another view.
+/// A picture of only the texture's colours, or of another view.
 fn seen(from: &[String], sets: &[&str]) -> Picture {
     chapter(SMALL).sets(from).sets(&["show=color"]).sets(sets).picture()
 }
@@ -70,7 +71,7 @@ fn a_point_gives_the_picture_of_05() {
     assert_ne!(bits(&of(NAME, &["footprint=cone"])), bits(&parent), "a cone changes nothing");
 }
 
-/// The level is the binary logarithm of how many texels a pixel covers; there are 64 of them in a unit.
+/// The level is the binary logarithm of the number of texels per pixel; there are 64 of them in a unit.
 #[test]
 fn the_level_is_that_of_a_pixel_s_width() {
     levels_are_those_of_a_pixel_s_width(&[80.0]);
@@ -94,14 +95,14 @@ fn levels_are_those_of_a_pixel_s_width(distances: &[f64]) {
         let [level, count, ..] = picture.pixels[15 * 48 + 24];
         (f64::from(level), f64::from(count))
     };
-    // The pixel's middle lies half a pixel below that of the picture.
+    // The pixel's middle is half a pixel below that of the picture.
     let below = (0.5 * pixel()).atan();
     for &distance in distances {
         for angle in [90.0, 30.0, 10.0_f64] {
             let aimed = angle.to_radians();
             let slant = 1.0 / (aimed + below).sin();
             let texels = 64.0 * pixel() * distance * aimed.sin() * slant;
-            // Half a pixel aside changes lengths by 1 part in 100,000.
+            // Half a pixel sideways changes lengths by 1 part in 100,000.
             let near = |found: f64, texels: f64| (found - texels.log2()).abs() < 0.01;
             let (level, count) = middle("cone", distance, angle);
             assert!(near(level, texels * slant) && count == 1.0, "{distance} {angle}: {level}");

@@ -1,4 +1,4 @@
-//! 41_ray_offset: shadow rays compared with the reference, and where a constant offset fails.
+//! 41_ray_offset: shadow rays compared with the reference, and the failures of a constant offset.
 
 mod price;
 
@@ -52,7 +52,7 @@ fn its_constant_is_that_of_05() {
     same_colors("41 by a constant and 05", NAME, &constant, &of_05);
 }
 
-/// The sun on the horizon is within the plane of the board, and not above it.
+/// A sun on the horizon is in the plane of the board, not above it.
 #[test]
 fn a_sun_on_the_horizon_does_not_light_the_board() {
     let level = chapter().sets(&["sun elevation=0", "show=shadow origin"]).picture();
@@ -64,7 +64,7 @@ fn shadows(sets: &[&str]) -> Picture {
     Chapter::new(NAME).size("480x300").set("show", "shadow").sets(sets).picture()
 }
 
-/// Shadows of the set at each size, near the origin and far from it, compared with those of the set as it is.
+/// The shadows of the set at each size, near the origin and far from it, compared with the original set's.
 #[test]
 fn a_constant_fails_at_another_size_and_far_away() {
     let right = shadows(&[]);
@@ -87,7 +87,7 @@ fn a_constant_fails_at_another_size_and_far_away() {
                 ("large", "constant") => assert!(dark > 5_000, "{dark} dark"),
                 ("small", "constant") => assert!(leaks > 1_000, "{leaks} leaks"),
                 ("far", "constant") => assert!(wrong > 1_000, "{wrong} wrong"),
-                // A million units away the bound itself is as large as a piece.
+                // A million units away, the bound itself is as large as a piece.
                 ("far", "bound") => assert!(dark < leaks, "{dark} dark, {leaks} leaks"),
                 _ => assert!(wrong < 200, "{name}, {offset}: {wrong} wrong"),
             }
@@ -99,7 +99,8 @@ fn a_constant_fails_at_another_size_and_far_away() {
 /// The bound of `ray_offset.glsl`.
 const BOUND: &str = "at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);";
 
-/// Pixels that become dark by mistake where the origin is nearer to the surface than the bound says.
+/// The number of pixels that become dark by mistake if the origin is closer to the surface than the bound
+/// requires.
 #[test]
 fn specks_come_where_the_bound_is_not_kept() {
     let right = shadows(&[]);

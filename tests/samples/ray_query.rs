@@ -1,4 +1,4 @@
-//! 16_ray_query: the picture of 41_ray_offset from a compute shader, equal to the bit.
+//! 16_ray_query: the picture of 41_ray_offset from a compute shader, equal bit for bit.
 
 use common::app::Picture;
 use common::gpu::{ComputePipeline, Gpu, GpuOptions, Requirements};
@@ -9,11 +9,11 @@ use serde_json::json;
 const NAME: &str = "16_ray_query";
 /// The chapter that every test below compares with.
 const PIPELINE: &str = "41_ray_offset";
-/// No multiple of any workgroup's sides.
+/// Not a multiple of any workgroup's sides.
 const SIZE: &str = "121x77";
 const WORKGROUPS: [&str; 5] = ["8x4", "8x8", "16x4", "32x1", "16x16"];
 
-/// A picture that was traced in several bands: nothing is known of a first frame's cost.
+/// A picture traced in several bands, because the cost of a first frame is unknown.
 #[track_caller]
 fn picture(name: &str, arguments: &[&str]) -> Picture {
     let run = render(name, SIZE, arguments);
@@ -46,7 +46,7 @@ fn queries_give_the_bits_of_the_pipeline_in_every_light() {
     same(&["--set", "sun elevation=0"]);
 }
 
-/// The errors depend on an operation's operands alone: so both may only differ where their code does.
+/// The errors depend only on an operation's operands, so the two may only differ where their code does.
 #[test]
 #[ignore = "nightly: compiles for long; quick: ray_query::queries_give_the_bits_of_the_pipeline_in_every_light"]
 fn queries_give_the_bits_of_the_pipeline_in_the_worst_arithmetic() {
@@ -60,7 +60,7 @@ fn queries_give_the_bits_of_the_pipeline_in_the_worst_arithmetic() {
 
 #[test]
 fn no_workgroup_s_shape_leaves_out_a_pixel_or_traces_another() {
-    // The widest and the largest.
+    // The widest and the largest workgroup.
     workgroups_trace_each_pixel(&["32x1", "16x16"], &["3x50", "50x3"]);
 }
 
@@ -110,7 +110,7 @@ fn a_query_needs_no_groups_and_no_table() {
     assert_eq!(report["stages"], serde_json::json!(["16_ray_query/trace.comp"]));
 }
 
-/// Time of a frame of queries, relative to the pipeline's.
+/// The time of a frame with queries, relative to the pipeline's.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_time_of_a_frame() {

@@ -1,4 +1,5 @@
-//! 17_ray_query_raster: what the rasteriser sees held to the reference, and occlusion to its closed form.
+//! 17_ray_query_raster: the rasteriser's visible surfaces compared with the reference, and occlusion with its
+//! closed form.
 
 mod occlusion;
 mod visibility;
@@ -12,7 +13,7 @@ fn chapter(size: &str) -> Chapter {
     Chapter::new(NAME).size(size)
 }
 
-/// Without occlusion it is the picture of 16: what differs is a few pixels at edges.
+/// Without occlusion it is the picture of 16, except for a few pixels at edges.
 #[test]
 fn raster_and_rays_give_the_picture_of_16() {
     run::needs!(NAME);
@@ -25,7 +26,8 @@ fn raster_and_rays_give_the_picture_of_16() {
     }
 }
 
-/// A compute shader reads the image drawn in the same frame, not that of the last one, of another view.
+/// The compute shader reads the image drawn in the same frame, not that of the previous frame with another
+/// view.
 #[test]
 fn a_frame_from_elsewhere_is_drawn_anew() {
     run::needs!(NAME);

@@ -25,7 +25,7 @@ fn gpu() -> Gpu {
     Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).unwrap()
 }
 
-/// Tests whether shaders may trace rays from a hit, as recursion does; if not, prints a line.
+/// Returns whether shaders may trace rays from a hit, as recursion requires; prints a message if not.
 fn nests() -> bool {
     let limit = gpu().limits.max_ray_recursion_depth;
     if limit < 10 {
@@ -49,9 +49,9 @@ fn a_loop_and_recursion_give_the_same_picture() {
             render(NAME, SIZE, &sets)
         };
         let (iterative, recursive) = (run("method=iterative"), run("method=recursive"));
-        // The two run the same operations in the same order.
+        // The two perform the same operations in the same order.
         same_colors(&depth, NAME, &iterative.picture, &recursive.picture);
-        // Even the eighth reflection is seen somewhere, or the comparison is one of nothing.
+        // Even the eighth reflection is visible somewhere; otherwise the comparison would be vacuous.
         if let Some(last) = &last {
             assert_ne!(bits(last), bits(&iterative.picture), "{depth} changes nothing");
         }
@@ -76,7 +76,8 @@ fn a_depth_beyond_the_device_s_limit_is_refused() {
     let (code, line) = refused(NAME, &["--headless", "--set", "depth=9"]);
     assert_eq!(code, 2);
     assert!(line.contains("'depth' cannot be '9': it takes a whole number from 0 to 8"), "{line}");
-    // Every device here allows 10 or more, so the control never asks for too much: the check itself is asked.
+    // Every device here supports 10 or more, so the control never exceeds it, and the check is called
+    // directly.
     let gpu = gpu();
     let limit = gpu.limits.max_ray_recursion_depth;
     let builder = RayTracingPipeline::builder(NAME).raygen("camera.rgen").recursion(limit + 1);
@@ -111,7 +112,7 @@ fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
         let [x, y, z, _] = normals.pixels[i];
         let normal = 2.0 * Vec3::new(x, y, z) - 1.0;
         let direction = ray.direction.as_vec3();
-        // Schlick's formula; the view is rounded, so beside the minimum either answer is right.
+        // Schlick's formula; the view is rounded, so near the minimum either answer is right.
         let (head_on, cosine) = (material.specular, -normal.dot(direction).min(0.0));
         let mirror = head_on + (1.0 - head_on) * (1.0 - cosine).powi(5);
         if (mirror.max_element() - MINIMUM).abs() < 1e-5 {
@@ -131,7 +132,7 @@ fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
         turned += usize::from(below < 0.0);
         expected -= 2.0 * below * up;
         assert!((on - expected.normalize()).length() < 1e-5, "{on} not {expected} at {ray:?}");
-        // Beyond the rounding of a scalar product and of the normal, none goes into its triangle.
+        // Beyond the rounding of a dot product and of the normal, none enters its triangle.
         assert!(on.dot(up) > -1e-6, "{on} enters the triangle of {up}");
     }
     println!("{traced} reflected, {turned} of them at the triangle, {dropped} dropped");
@@ -142,7 +143,7 @@ fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
 fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     let scene = Scene::chess_of_metal().unwrap();
     let exact = reference(&scene);
-    // A mirrored ray starts where the shadow ray of the same hit does.
+    // A reflected ray starts where the shadow ray of the same hit does.
     let show =
         |sets: &[&str]| chapter("240x150").sets(&["minimum contribution=0"]).sets(sets).picture();
     let [hits, starts] = ["show=hit", "show=shadow origin"].map(|view| show(&[view]).pixels);
@@ -163,7 +164,7 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
         }
         let ray = Ray::from_f32([x, y, z], light, 0.0, 1e30);
         let leaving = Leaving::new(&exact, &arriving, &hit, &ray);
-        // The shader knows without a ray that a light below the surface is hidden.
+        // The shader knows without a ray that a light below the surface is blocked.
         if leaving.steepness() > 0.0 {
             shadows.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
         }
@@ -175,7 +176,7 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     expected::hold("06_reflection/both", both);
     for tally in [mirrored, shadows] {
         println!("{tally}");
-        // The height of a sliver is larger than what the reference allows; 26 has a smaller one.
+        // The height of a sliver exceeds the reference's tolerance; 26 has a smaller one.
         assert_eq!((tally.self_hits, tally.lost - tally.slivers), (0, 0), "{:?}", tally.first);
         assert!(tally.rays > 10_000 && tally.slivers * 1000 < tally.rays, "{tally}");
         assert!(tally.close * 8 < tally.rays, "{tally}");

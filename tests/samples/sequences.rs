@@ -1,4 +1,4 @@
-//! 37_sequences: the points are those of the literature, cover a pixel evenly, and are each pixel's own.
+//! 37_sequences: the points match the literature, cover a pixel evenly, and differ between pixels.
 
 mod converging;
 mod plots;
@@ -55,7 +55,8 @@ fn the_points_are_those_of_the_literature() {
             for (i, offset) in offsets(&directions).into_iter().enumerate() {
                 let pixel = [i as u32 % directions.width, i as u32 / directions.width];
                 let point = sample_point(sequence, scrambling, pixel, 7, index);
-                // A direction of 24 bits tells the place in a picture of 64 columns to 2^-16 of one.
+                // A direction of 24 bits determines the place in a picture of 64 columns to 2^-16 of a
+                // column.
                 let most = [0, 1].map(|axis| (offset[axis] + 0.5 - point[axis]).abs());
                 let near = most.iter().all(|&error| error < 0.5f64.powi(16));
                 assert!(near, "{name} {scrambled} {index} at {pixel:?}: {offset:?} {point:?}");
@@ -148,7 +149,7 @@ fn neighbours_have_their_points_in_common_only_without_scrambling() {
                 .picture(),
         )
     };
-    // The directions tell an offset to 2^-14 of a pixel.
+    // The directions determine an offset to 2^-14 of a pixel.
     let shared = points("Sobol", "none");
     let most =
         |axis: usize| shared.iter().map(|p| (p[axis] - shared[0][axis]).abs()).fold(0.0, f64::max);
@@ -157,7 +158,7 @@ fn neighbours_have_their_points_in_common_only_without_scrambling() {
     for (sequence, scrambling) in [("random", "Owen"), ("R2", "rotation"), ("Sobol", "Owen")] {
         let points = points(sequence, scrambling);
         let correlation = |axis: usize, (column, row): (usize, usize)| {
-            // The variance of a number that is uniform over a pixel is 1/12.
+            // The variance of a uniform number over a pixel is 1/12.
             let pairs = points.iter().zip(&points[row * 240 + column..]);
             let count = pairs.len() as f64;
             pairs.map(|(a, b)| 12.0 * a[axis] * b[axis]).sum::<f64>() / count
@@ -170,7 +171,7 @@ fn neighbours_have_their_points_in_common_only_without_scrambling() {
     }
 }
 
-/// The page says of a key that is not reversed: its low bits, which are related, decide first.
+/// The page's statement about a key that is not reversed: its low bits, which are related, are used first.
 #[test]
 fn keys_that_are_not_reversed_relate_the_first_points_of_neighbours() {
     let naive = |key: u32| f64::from(points::owen(0, key.reverse_bits())) * 0.5f64.powi(32) - 0.5;

@@ -1,7 +1,7 @@
-//! `--set` in any order: a preset, a scene or a primitive brings values of its own, and never takes back
-//! what was set beside it.
+//! `--set` in any order: a preset, a scene or a primitive sets further values, but never overrides an
+//! explicit setting.
 
-/// The values of all controls after settings.
+/// The values of all controls after these settings.
 fn values(name: &str, sets: &[&str]) -> Vec<String> {
     let mut command = run::command(name);
     let output = command.arg("--list-controls").args(run::set_arguments(sets)).output().unwrap();
@@ -10,7 +10,7 @@ fn values(name: &str, sets: &[&str]) -> Vec<String> {
     String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
 }
 
-/// Every setting is in force, whether the preset that brings values of its own comes first or last.
+/// Checks that every setting is in effect, whether the preset with further values comes first or last.
 fn held(name: &str, sets: [&str; 3]) {
     let [a, b, c] = sets;
     let last = values(name, &[c, b, a]);

@@ -1,4 +1,4 @@
-//! 05_shadow_miss: what an offset cures, and what each choice must not change.
+//! 05_shadow_miss: the effect of an offset, and what each choice must not change.
 
 mod times;
 
@@ -14,7 +14,7 @@ fn chapter() -> Chapter {
     Chapter::new(NAME).size(SIZE)
 }
 
-/// The line of `shadow.glsl` that lets the first hit end a shadow ray, and the same without.
+/// The line of `shadow.glsl` that ends a shadow ray at its first hit, and the same line without the flag.
 const FIRST_HIT: [&str; 2] = ["gl_RayFlagsTerminateOnFirstHitEXT | ", ""];
 
 #[test]
@@ -38,7 +38,8 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     );
 }
 
-/// Without an offset surfaces shadow themselves; with a thousandth of a square few pixels are wrong, here.
+/// Without an offset, surfaces shadow themselves; with a thousandth of a square, few pixels of this scene are
+/// wrong.
 #[test]
 fn an_offset_cures_acne() {
     let shadows = |chapter: Chapter| chapter.size("480x300").set("show", "shadow").picture();

@@ -1,4 +1,4 @@
-//! Shadow rays of a chapter, held to the reference: where they start, and what they meet.
+//! Shadow rays of a chapter, compared with the reference: their starts and their hits.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ use run::primary_hits::{answer, rays, reference};
 
 const SIZE: &str = "240x150";
 
-/// A picture by shaders of a folder, with these controls set.
+/// A picture with the shaders of a folder and these controls set.
 pub fn picture_by(shaders: &Path, name: &str, sets: &[&str]) -> Picture {
     Chapter::new(name).size(SIZE).shaders(shaders).sets(sets).picture()
 }
 
-/// Differences of a picture's shadows (`show=shadow`) from the right ones.
+/// The errors of a picture's shadows (`show=shadow`).
 pub struct Shadows {
-    /// Pixels that are rightly lit.
+    /// Pixels that should be lit.
     pub lit: usize,
-    /// Those of them that are dark.
+    /// Of those, the pixels that are dark.
     pub dark: usize,
-    /// Lit pixels that are rightly dark.
+    /// Lit pixels that should be dark.
     pub leaks: usize,
 }
 
@@ -40,10 +40,10 @@ impl Shadows {
     }
 }
 
-/// A ray from a point to the light, of the very bits that a shader in f32 makes of them.
+/// A ray from a point to the light, with the same bits as in a shader in f32.
 pub type Shadow = fn(Vec3) -> Ray;
 
-/// A surface that was seen, and the shadow ray that left it.
+/// A visible surface, and the shadow ray that left it.
 pub struct Seen {
     pub instance: u32,
     pub triangle: u32,
@@ -53,11 +53,11 @@ pub struct Seen {
     pub normal: DVec3,
     /// Origin of the GPU's shadow ray.
     pub origin: Vec3,
-    /// True if it reached the light.
+    /// True if the ray reached the light.
     pub lit: bool,
 }
 
-/// The surface that each pixel of a chapter saw, but for pixels that saw the sky.
+/// The surface visible in each pixel of a chapter, without pixels of the sky.
 pub fn seen(exact: &Exact, name: &str, sets: &[&str]) -> Vec<Seen> {
     let camera = Scene::chess().unwrap().camera;
     let show = |view| Chapter::new(name).size(SIZE).sets(sets).sets(&[view]).picture();
@@ -79,13 +79,13 @@ pub fn seen(exact: &Exact, name: &str, sets: &[&str]) -> Vec<Seen> {
     surfaces.collect()
 }
 
-/// Results of a picture's shadow rays.
+/// The results of a picture's shadow rays.
 pub struct Answers {
     pub surfaces: usize,
     pub lit: usize,
-    /// Rays that met an edge: there either answer is right.
+    /// Rays that hit an edge, where either answer is right.
     pub edges: usize,
-    /// Surfaces that face away from the light, which no ray had to find out.
+    /// Surfaces that face away from the light, which need no ray.
     pub turned_away: usize,
 }
 
@@ -97,7 +97,7 @@ pub fn hold_answers(name: &str, shadow: Shadow) -> Answers {
     for surface in &surfaces {
         lit += usize::from(surface.lit);
         let ray = shadow(surface.origin);
-        // Its own triangle lies below: to be stopped by it is a fault, however near it is.
+        // Its own triangle is below: to be blocked by it is an error at any distance.
         let own = (surface.instance, surface.triangle);
         let mut candidates = exact.near_candidates(&ray);
         candidates.retain(|candidate| (candidate.hit.instance, candidate.hit.primitive) != own);
@@ -106,8 +106,8 @@ pub fn hold_answers(name: &str, shadow: Shadow) -> Answers {
         } else if !candidates.is_empty() {
             edges += 1;
         } else if !surface.lit {
-            // The way is free, so the shader must have found the light below the triangle; the cosine is
-            // off by a few roundings.
+            // Nothing is in the way, so the shader must have found the light below the triangle; the cosine
+            // is off by a few roundings.
             let cosine = surface.normal.dot(ray.direction) / ray.direction.length();
             assert!(cosine < 1e-6, "dark: {ray:?} {cosine}");
             sides += 1;
@@ -116,24 +116,24 @@ pub fn hold_answers(name: &str, shadow: Shadow) -> Answers {
     let all = surfaces.len();
     println!("{name}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away");
     assert!(lit > all / 4 && lit < all * 9 / 10, "{lit} of {all}");
-    // Most of those start beside an edge that the own triangle shares with one in the same plane.
+    // Most of those start next to an edge shared by their own triangle and one in the same plane.
     assert!(edges * 100 < all, "{edges} of {all}");
     Answers { surfaces: all, lit, edges, turned_away: sides }
 }
 
-/// Distances of origins from the exact hits, and their effect.
+/// The distances of origins from the exact hits, and their effect.
 pub struct Origins {
-    /// Surfaces whose shadow is not that of the exact hit.
+    /// Surfaces whose shadow differs from that of the exact hit.
     pub differ: usize,
     pub surfaces: usize,
-    /// The highest origin above its triangle; slivers are apart.
+    /// The highest origin above its triangle; slivers are counted separately.
     pub height: f64,
     pub height_on_slivers: f64,
-    /// The farthest from the exact hit.
+    /// The largest distance from the exact hit.
     pub moved: f64,
 }
 
-/// The question itself: is the segment from the hit, exactly, to the light blocked?
+/// Answers the actual question: is the segment from the exact hit to the light blocked?
 pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
     let exact = reference(&Scene::chess().unwrap());
     let surfaces = seen(&exact, name, &[]);
@@ -163,8 +163,8 @@ pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
             continue;
         }
         differ += 1;
-        // The origin was moved by a distance that is known, and an edge, a contact or the
-        // horizon must be as near as that, or as the bound on the triangle test.
+        // The origin was moved by a known distance, and an edge, a contact or the horizon must be as close as
+        // that, or as the bound on the triangle test.
         let cosine = surface.normal.dot(direction) / direction.length();
         let near = exact.near_candidates(&rounded);
         let doubtful = blocker.map(|hit| exact.candidate(&ray, hit)).into_iter().chain(near);
@@ -186,7 +186,7 @@ pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
          {highest_on_slivers:.1e} on slivers, {farthest:.1e} from the exact hit"
     );
     assert!(differ * 500 < all, "{differ} of {all}");
-    // A board's square is 1: a shadow begins where the piece stands.
+    // A board's square is 1: a shadow begins at the foot of the piece.
     assert!(highest < 1e-4 && highest_on_slivers < 2e-3, "{highest} {highest_on_slivers}");
     Origins {
         differ,
@@ -197,7 +197,8 @@ pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
     }
 }
 
-/// Tests whether a shadow ray started on the board's squares: flat, level, of two materials without textures.
+/// Returns whether a shadow ray started on the board's squares: flat, level, of two materials without
+/// textures.
 pub fn is_on_a_square(&[x, y, z, lit]: &[f32; 4]) -> bool {
     lit >= 0.0 && y.abs() < 1e-4 && x.abs() < 3.99 && z.abs() < 3.99
 }

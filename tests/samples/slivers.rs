@@ -1,11 +1,10 @@
-//! Triangles so thin that their area is rounded to nothing: no number that a chapter makes of them is
-//! infinite, or none at all.
+//! Triangles so thin that their area rounds to zero: no chapter computes an infinity or NaN from them.
 
 use std::fs;
 
 use run::Chapter;
 
-/// Views of the test: pictures, and the views that say where rays leave a surface.
+/// The views of the test: pictures, and the views that show where rays leave a surface.
 const VIEWS: [(&str, &[&str]); 10] = [
     ("41_ray_offset", &[]),
     ("41_ray_offset", &["show=shadow origin"]),
@@ -19,7 +18,7 @@ const VIEWS: [(&str, &[&str]); 10] = [
     ("26_leaving_a_surface", &["show=ray origin", "bounce=1"]),
 ];
 
-/// A mirror: from (0, -1, 0) up to (0, 1, 0), and a third corner.
+/// A mirror with vertices (0, -1, 0), (0, 1, 0), and a third one.
 fn sliver(corner: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let obj = format!("mtllib s.mtl\nusemtl m\nv 0 -1 0\nv 0 1 0\nv {corner}\nf 1 2 3\n");

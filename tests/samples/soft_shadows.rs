@@ -1,4 +1,4 @@
-//! 35_soft_shadows: what part of a disk is seen, and what its points cost.
+//! 35_soft_shadows: the visible fraction of a disk, and the cost of its points.
 
 use run::{Chapter, bits, render, same_colors};
 
@@ -42,7 +42,8 @@ fn a_penumbra_lies_between_light_and_shadow() {
         }
         println!("{light}: {between} in the penumbra, {opposite} opposite");
         assert!(between > 2000, "{light}: {between}");
-        // The middle of the light is one of the points that see it: dark there, hardly lit all around.
+        // Pixels that cannot see the light's middle are hardly ever fully lit, and those that can are hardly
+        // ever dark.
         assert!(opposite * 200 < soft.pixels.len(), "{light}: {opposite}");
     }
 }

@@ -1,4 +1,5 @@
-//! 22_solids: every hit held to the exact solid, ties of planes and cutters, clips, and fog kept outside.
+//! 22_solids: every hit compared with the exact solid, ties of planes and cutters, clips, and fog that stays
+//! outside.
 
 mod clips;
 mod counterpart;
@@ -28,7 +29,7 @@ use solid::Solid;
 const NAME: &str = "22_solids";
 const SIZE: &str = "48x30";
 
-/// An eye and what it looks at.
+/// An eye and its target.
 type View = (DVec3, DVec3);
 const OUTSIDE: View = (DVec3::new(2.6, 1.9, 3.4), DVec3::new(0.0, -0.1, 0.0));
 const INSIDE: View = (DVec3::new(0.05, -0.35, -0.12), DVec3::new(0.6, 0.1, 0.3));
@@ -38,7 +39,7 @@ fn shape(name: &str) -> Solid {
     shapes::shape(number(name), 20)
 }
 
-/// Tests whether a solid has no end, so that the largest box clips it.
+/// Returns whether a solid is unbounded, so that the largest box clips it.
 fn is_endless(name: &str) -> bool {
     ["wedge", "half-space", "sunk room"].contains(&name)
 }

@@ -1,4 +1,5 @@
-//! 18_swept_spheres: every rung held to the exact answer, joints, normals, boxes, and the strands' triangles.
+//! 18_swept_spheres: every rung compared with the exact answer, joints, normals, boxes, and the strands'
+//! triangles.
 
 mod cases;
 mod direct;
@@ -60,7 +61,7 @@ fn row(family: &str, rung: &str, tally: &Tally) {
     );
 }
 
-/// The bars of the top rung: nothing wrong, t within a unit, and the normal within so many roundings.
+/// The bounds of the top rung: nothing wrong, t within a unit, and the normal within this many roundings.
 fn hold_top(family: &str, tally: &Tally, roundings: f64) {
     let what = format!("{family}: {:?}", tally.first_wrong);
     assert_eq!(tally.wrong(), 0, "{what}");
@@ -121,7 +122,7 @@ fn two_rungs_in_the_worst_arithmetic() {
     rays_go_through_tips(&gpu);
 }
 
-/// A line through a tip enters the body there or leaves it, and goes on.
+/// A line through a tip enters or leaves the body there, and continues.
 fn rays_go_through_tips(gpu: &Gpu) {
     let cases = cases::through_tips();
     for rung in [1, TOP] {
@@ -137,7 +138,8 @@ fn rays_go_through_tips(gpu: &Gpu) {
     }
 }
 
-/// Asks a rung for all families, and for rays at shared ends, by one pipeline. Holds the top rung to its bars.
+/// Runs a rung for all families, and for rays at shared ends, with one pipeline. Checks the top rung's
+/// bounds.
 fn asked(gpu: &Gpu, rung: usize, families: &[Exact], roundings: f64) -> Vec<Tally> {
     let [before, after] = shared_ends();
     let cases = families.iter().flat_map(|exact| &exact.cases).chain(&before).chain(&after);
@@ -157,7 +159,7 @@ fn asked(gpu: &Gpu, rung: usize, families: &[Exact], roundings: f64) -> Vec<Tall
     tallies
 }
 
-/// Rays at the ball that two segments share, for the one segment and for the other.
+/// Rays at the ball shared by two segments, for the one segment and for the other.
 fn shared_ends() -> [Vec<Case>; 2] {
     let mut random = Random(18);
     let (mut before, mut after) = (Vec::new(), Vec::new());
@@ -173,7 +175,7 @@ fn shared_ends() -> [Vec<Case>; 2] {
     [before, after]
 }
 
-/// Checks that both segments give the same t, to the bit, where both say that the ball is hit.
+/// Checks that both segments give the same t, bit for bit, where both hit the ball.
 fn ends_are_one_sphere(rung: &str, found: &[Option<Found>]) {
     let (before, after) = found.split_at(found.len() / 2);
     let mut shared = 0;
@@ -188,7 +190,7 @@ fn ends_are_one_sphere(rung: &str, found: &[Option<Found>]) {
     assert!(shared > 200, "{shared}");
 }
 
-/// A segment, as the reference has it.
+/// A segment in the reference's form.
 fn swept(strands: &Strands, segment: &Segment) -> Swept {
     let [a, b] = [0, 1].map(|i| &strands.nodes[segment.first as usize + i]);
     Swept {
@@ -208,7 +210,8 @@ fn chains_have_no_seams_in_a_larger_picture() {
     no_ray_slips_between_segments("240x150", 3000);
 }
 
-/// Each ray of a picture of the chain, joints and all, finds the nearest of all segments. None slips between two.
+/// Each ray of a picture of the chain, including the joints, finds the nearest of all segments. None slips
+/// between two.
 fn no_ray_slips_between_segments(size: &str, least: usize) {
     let strands = Strands::new(SceneKind::Chain, 0, 0);
     let all: Vec<Swept> = strands.segments.iter().map(|segment| swept(&strands, segment)).collect();
@@ -234,13 +237,13 @@ fn no_ray_slips_between_segments(size: &str, least: usize) {
                 (Some((segment, exact)), Some(answer)) => {
                     found += 1;
                     most = most.max(ulp_error(answer.t, exact.t));
-                    // Beside a joint two segments may share the sphere that was hit, or meet in a valley.
+                    // Near a joint, two segments may share the sphere that was hit, or meet in a valley.
                     joints += usize::from(answer.primitive as usize != segment);
                     let shown = DVec3::new(normal[0].into(), normal[1].into(), normal[2].into())
                         * 2.0
                         - 1.0;
                     let own = all[answer.primitive as usize].normal(ray.at(answer.t.into()));
-                    // t is off by few units, and a normal turns by that over the radius.
+                    // t is off by a few units, and a normal turns by that over the radius.
                     assert!(
                         (shown - own).length() < 1e-4,
                         "a normal is off: {ray:?}: {shown} {own}"
@@ -257,7 +260,7 @@ fn no_ray_slips_between_segments(size: &str, least: usize) {
     }
 }
 
-/// The board: what is said of a segment is true of it.
+/// The board: the segments in `show=hit` match the reference.
 #[test]
 fn hits_of_hair_rope_and_beads_are_the_references() {
     let strands = Strands::new(SceneKind::Board, 10_000, 0);
@@ -272,7 +275,7 @@ fn hits_of_hair_rope_and_beads_are_the_references() {
             let Some(answer) = answer(hit).filter(|_| hit[0] == board) else { continue };
             found += 1;
             let own = swept(&strands, &strands.segments[answer.primitive as usize]);
-            // A hair is met at its very outline now and then, where one rounding more decides.
+            // Sometimes a hair is hit exactly at its outline, where one more rounding decides.
             if let Some(exact) = own.intersect(&ray) {
                 errors.push(ulp_error(answer.t, exact.t));
             } else {
@@ -286,14 +289,14 @@ fn hits_of_hair_rope_and_beads_are_the_references() {
     }
 }
 
-/// Beads have no axis to be perpendicular to.
+/// Beads have no axis for the normal to be perpendicular to.
 #[test]
 fn the_wrong_normal_is_a_number_everywhere() {
     let shown = chapter(SIZE).sets(&["normal=axis", "show=normal"]).picture();
     assert!(shown.pixels.iter().flatten().all(|number| number.is_finite()));
 }
 
-/// The hit shader that the page shows for the device's own swept spheres: its function runs here, on our shapes.
+/// The page's hit shader for the device's own swept spheres: its function runs here, on our shapes.
 #[test]
 fn the_hit_shader_for_the_extension_has_the_surface_s_normal() {
     let text = include_str!("swept_spheres/nv.rchit");
@@ -335,13 +338,13 @@ fn the_hit_shader_for_the_extension_has_the_surface_s_normal() {
     for (i, (&[x, y, z, _], (swept, normal))) in found.pixels.iter().zip(&exact).enumerate() {
         let off = (DVec3::new(x.into(), y.into(), z.into()) - *normal).length();
         most = most.max(off);
-        // A place a unit across is rounded to 2^-24 of it, over a radius of 0.05.
+        // A position one unit away is rounded to 2^-24 of it, over a radius of 0.05.
         assert!(off < 2e-5, "{i}: off by {off}, {swept:?}");
     }
     println!("off by {most:.1e} at most");
 }
 
-/// The ray through the middle meets the very point that a chain ends in.
+/// The ray through the middle hits exactly the end point of a chain.
 #[test]
 fn a_tip_has_a_normal_and_a_colour() {
     let tip = ["scene=chain", "camera eye=2.1,0.55,5", "camera target=2.1,0.55,0"];
@@ -353,7 +356,7 @@ fn a_tip_has_a_normal_and_a_colour() {
     assert_eq!((hit[0], hit[2]), (0.0, 5.0), "the only instance, at the tip's distance");
 }
 
-/// No point of a segment lies outside its box.
+/// No point of a segment is outside its box.
 #[test]
 fn boxes_hold_their_segments() {
     let mut random = Random(4);
@@ -370,7 +373,7 @@ fn boxes_hold_their_segments() {
     }
 }
 
-/// Distance between the outlines: one of both shapes is missed, which is the error of the outline.
+/// The distance between the outlines: where only one shape is hit, the outline is off.
 #[test]
 fn triangles_leave_out_a_rim() {
     let hit = |sets: &[&str]| {

@@ -1,4 +1,4 @@
-//! 36_two_normals: what the terminator offset of a shadow ray changes, and what it does not.
+//! 36_two_normals: the effects of a shadow ray's terminator offset, and what it leaves unchanged.
 
 use common::scene::Scene;
 use serde_json::json;
@@ -44,6 +44,6 @@ fn the_offset_changes_only_what_turns_away_from_the_light() {
         json!({ "surfaces": all, "lifted": lifted, "height": highest, "lit": lit, "dark": dark }),
     );
     assert!(lit > 10 && lit * 20 < all && dark * 100 < all, "{lit} lit, {dark} dark");
-    // The pieces are turned from 32 sides or so: r·(1 - cos(π/32)) is below a hundredth.
+    // The pieces are turned from about 32 sides: r·(1 - cos(π/32)) is below a hundredth.
     assert!(highest < 0.01, "{highest}");
 }

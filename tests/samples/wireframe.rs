@@ -1,4 +1,4 @@
-//! 20_wireframe: lines are as wide as they were asked to be, wherever the triangle is and however it is turned.
+//! 20_wireframe: lines have the requested width, wherever the triangle is and however it is rotated.
 
 use std::fs;
 
@@ -15,15 +15,15 @@ fn the_picture_repeats() {
     Chapter::new(NAME).repeats();
 }
 
-/// Two triangles that share an edge, which is upright in the middle of the picture.
+/// Two triangles that share a vertical edge in the middle of the picture.
 struct Diamond {
-    /// Half its diagonals.
+    /// Half the length of its diagonals.
     size: f64,
-    /// Distance of the eye.
+    /// The distance of the eye.
     distance: f64,
-    /// Angle by which the eye has gone round it, in degrees: at 90 it would be seen from its edge.
+    /// The angle of the eye around it, in degrees: at 90 it would be seen edge-on.
     turned: f64,
-    /// Half of what the picture's height shows at this distance.
+    /// Half of the height visible at this distance.
     shown: f64,
 }
 
@@ -31,12 +31,12 @@ struct Diamond {
 const FRONT: Diamond = Diamond { size: 1.0, distance: 2.0, turned: 0.0, shown: 0.5 };
 
 impl Diamond {
-    /// The lines of its picture, drawn so wide.
+    /// A picture of its lines, drawn with this width.
     fn picture(&self, width: f64, more: &[&str]) -> Picture {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("diamond.obj");
         let s = self.size;
-        // Not at round numbers: then no product of coordinates is exact. The edge from 2 to 4 is upright.
+        // Not at round numbers, so that no product of coordinates is exact. The edge from 2 to 4 is vertical.
         let corners = [
             [1.013, 0.021, 0.003],
             [0.0, 0.987, 0.013],
@@ -57,13 +57,13 @@ impl Diamond {
         Chapter::new(NAME).size("97x61").scene(file).sets(&sets).with(more).picture()
     }
 
-    /// The width of the middle line in a picture, in pixels: how much ink a row has there.
+    /// The width of the middle line in a picture, in pixels: the amount of ink per row.
     fn measured(&self, width: f64, more: &[&str]) -> f64 {
         ink(&self.picture(width, more), 30, (width / 2.0 + 1.0).ceil() as usize)
     }
 }
 
-/// The ink of a row in its middle, so many pixels to both sides.
+/// The ink in the middle of a row, up to `reach` pixels on both sides.
 fn ink(picture: &Picture, row: usize, reach: usize) -> f64 {
     let columns = picture.width as usize;
     let middle = row * columns + columns / 2;
@@ -87,7 +87,7 @@ fn its_width_does_not_depend_on_size_distance_or_slant() {
         let measured = Diamond { size: 3.0, distance: 6.0, turned, shown: 0.5 }.measured(3.0, &[]);
         assert!((measured - 3.0).abs() < 1e-3, "turned by {turned} degrees: {measured}");
     }
-    // The largest that is accepted reaches 1e9.
+    // The largest accepted size reaches 1e9.
     for size in [1e-12, 1e-3, 0.1, 10.0, 1e4, 9e8] {
         let diamond = Diamond { size, distance: 2.0 * size, turned: 30.0, shown: 0.5 * size };
         let measured = diamond.measured(3.0, &[]);
@@ -114,13 +114,13 @@ fn a_line_of_constant_weight_is_as_wide_as_its_triangle_is_large() {
     let whole = width(FRONT);
     let half = width(Diamond { size: 0.5, ..FRONT });
     let turned = width(Diamond { turned: 60.0, ..FRONT });
-    // A tenth of the triangle's width on either side, in whole pixels. The whole one is 61 pixels wide.
+    // A tenth of the triangle's width on either side, in whole pixels. The whole triangle is 61 pixels wide.
     for (measured, width) in [(whole, 12.2), (half, 6.1), (turned, 6.1)] {
         assert!((measured - width).abs() < 1.0, "{measured}, not {width}");
     }
 }
 
-/// Of many small triangles: a long lens far away sees the same lines.
+/// Many small triangles: a long lens far away shows the same lines.
 #[test]
 fn a_scene_has_as_much_ink_from_afar() {
     run::needs!(NAME);
@@ -143,13 +143,13 @@ fn a_scene_has_as_much_ink_from_afar() {
     }
 }
 
-/// A corner behind the eye has no place in the picture, and the edge that leads to it has.
+/// A vertex behind the eye has no position in the picture, but the edge to it has.
 #[test]
 fn edges_to_corners_behind_the_eye_are_as_wide() {
     run::needs!(NAME);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("ground.obj");
-    // The shared edge runs under the eye, from far ahead to far behind.
+    // The shared edge passes under the eye, from far ahead to far behind.
     let text = "v -50 0 -3\nv 0 0 -50\nv 50 0 3\nv 0 0 50\nf 1 4 2\nf 3 2 4\n";
     fs::write(&file, text).expect("an OBJ file");
     let sets = ["camera eye=0,1,0", "camera target=0,0.6,-1", "line width=4", "show=lines"];
@@ -169,7 +169,7 @@ fn hidden_lines_are_fainter_and_leave_what_is_seen_as_it_is() {
     });
     let mut fainter = 0;
     for (seen, all) in seen.pixels.iter().zip(&all.pixels) {
-        // A third of the ink that is missing, at most.
+        // Hidden lines add at most a third of the missing ink.
         let ink = [seen, all].map(|pixel| 1.0 - pixel[0]);
         assert!(ink[1] >= ink[0] - 1e-6 && ink[1] <= ink[0] + 0.34 * (1.0 - ink[0]), "{ink:?}");
         fainter += usize::from(ink[1] > ink[0] + 0.1);

@@ -1,4 +1,4 @@
-//! Every chapter in the worst arithmetic that conforms: finite pictures, near the driver's own.
+//! Every chapter in the worst conforming arithmetic: finite pictures, close to the driver's own.
 
 use common::app::Picture;
 use run::{Near, Run, bits, flip, has_worst_arithmetic, render, same_colors, set_arguments};
@@ -9,13 +9,13 @@ fn number(chapter: &str) -> u32 {
     chapter[..2].parse().expect("a chapter begins with its number")
 }
 
-/// Tests whether a picture of random paths is the driver's own, except for one path of a hundred at each surface
-/// that a path meets.
+/// Returns whether a picture of random paths equals the driver's own, except for one path in a hundred at
+/// each surface of a path.
 ///
-/// A path that meets an edge, or makes one choice otherwise, goes elsewhere from there on. It is then as far
-/// from the driver's path as another draw of random numbers would be, and a picture of another seed tells how
-/// far that is. So the mean FLIP, divided by the mean FLIP of the other seed, is the part of the paths that
-/// went elsewhere. If this part is larger, errors count for more than chance.
+/// A path that hits an edge, or makes one choice differently, continues differently from there on. It is then
+/// as far from the driver's path as another draw of random numbers would be, and a picture with another seed
+/// shows how far that is. So the mean FLIP, divided by the mean FLIP of the other seed, is the fraction of
+/// the paths that changed. If this fraction is larger, errors have more than random effects.
 fn paths_are_the_same(chapter: &str, surfaces: f32, driver: &Picture, worst: &Picture) -> bool {
     let other = rendered(chapter, "driver", &["--set", "seed=1"]).picture;
     let (mean, drawn_anew) = (flip(driver, worst).0, flip(driver, &other).0);
@@ -31,7 +31,7 @@ fn rendered(name: &str, arithmetic: &str, arguments: &[&str]) -> Run {
     run
 }
 
-/// A chapter of each kind: the nearest hit alone decides, a shadow ray does as well, and an intersection shader.
+/// A chapter of each kind: only the nearest hit decides, or also a shadow ray, or an intersection shader.
 const OF_EACH_KIND: [&str; 3] = ["02_basic", "05_shadow_miss", "08_intersection"];
 
 fn pictures_are_finite_and_near(arithmetic: &str, wanted: impl Fn(&str) -> bool) {
@@ -40,9 +40,9 @@ fn pictures_are_finite_and_near(arithmetic: &str, wanted: impl Fn(&str) -> bool)
     }
     let mut wrong = Vec::new();
     for name in run::chapters_on_the_framework().into_iter().filter(|name| wanted(name)) {
-        // The picture that 24 begins with is one of errors, of a rung that has many.
+        // The initial picture of 24 shows the errors of a rung that has many.
         let set: &[&str] = match &name[..] {
-            // At its first frame nothing moves.
+            // Nothing moves in its first frame.
             "23_motion_blur" => &["--set", "frame=934", "--set", "shutter=2", "--set", "samples=2"],
             "24_accuracy" => &["--set", "show=picture", "--set", "rung=two-float"],
             _ => &[],
@@ -53,7 +53,7 @@ fn pictures_are_finite_and_near(arithmetic: &str, wanted: impl Fn(&str) -> bool)
         println!("{name} {arithmetic}: mean FLIP {mean:.5}, {:.2} % outliers", 100.0 * outliers);
         assert_ne!(bits(&driver), bits(&worst), "{name}: nothing was rewritten");
         let is_near = match number(&name) {
-            // Some four turns between pieces; or twenty walls of glass, most of them round.
+            // About four bounces between pieces; or twenty walls of glass, most of them round.
             11 | 29 => paths_are_the_same(&name, 5.0, &driver, &worst),
             27 => paths_are_the_same(&name, 20.0, &driver, &worst),
             _ => Near::of(&name).holds(&driver, &worst),
@@ -65,7 +65,7 @@ fn pictures_are_finite_and_near(arithmetic: &str, wanted: impl Fn(&str) -> bool)
     assert!(wrong.is_empty(), "{arithmetic}: {wrong:?}");
 }
 
-/// Those of each kind, and those whose shaders have been edited since the last commit.
+/// One of each kind, and those whose shaders have been edited since the last commit.
 #[test]
 fn pictures_are_finite_and_near_the_drivers_own() {
     let changed = run::changed();
@@ -119,7 +119,7 @@ fn a_specialised_pipeline_and_one_of_everything_agree() {
     assert!(Near::of("25").holds(&own, &everything), "{:?}", flip(&own, &everything));
 }
 
-/// A device may offer a triangle twice, unless that is ruled out: the list of 03 shows it.
+/// A device may pass a triangle twice to any-hit shaders, unless that is disallowed: the list of 03 shows it.
 #[test]
 fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
     if !has_worst_arithmetic() {
@@ -136,8 +136,8 @@ fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
     assert!(layer("layer=1", "no duplicates=on") == third, "the second surface");
 }
 
-/// A device may offer a sphere to rays that pass by its box: the rung of 42 that takes every offer for a hit
-/// sees more of them, and the rungs that test the sphere see the right ones.
+/// A device may call the intersection shader for rays that miss its box: the rung of 42 that takes every call
+/// for a hit sees more spheres, and the rungs that test the sphere see the right ones.
 #[test]
 fn a_shader_that_trusts_its_box_is_found_out() {
     if !has_worst_arithmetic() {

@@ -1,4 +1,4 @@
-//! Estimates of a GPU's own compiler for each scene's pipeline, against that which has everything.
+//! A GPU compiler's estimates for each scene's pipeline, compared with the pipeline that has everything.
 
 use common::gpu::ShaderEnum;
 use effects::Effect;
@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 
 use super::{NAME, SCENES};
 
-/// A pipeline on one family: it is one program.
+/// The estimates of a pipeline for one family; the pipeline is one program.
 #[derive(Debug, PartialEq)]
 struct Figures {
     instructions: u64,
@@ -47,7 +47,8 @@ fn thousands(number: u64) -> String {
     parts.collect::<Vec<_>>().join(",")
 }
 
-/// Estimates for a scene's own pipeline, or for the one with everything; `None` without the compiler.
+/// Estimates for a scene's own pipeline, or for the one with everything; `None` if the compiler is not
+/// installed.
 fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
     let sets = [format!("scene={scene}"), format!("pipeline={pipeline}")];
     let sets = set_arguments(&sets.each_ref().map(String::as_str));
@@ -56,7 +57,8 @@ fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
 
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
-/// Maximum number of registers that the program with everything spills: 38 to 51 by Mesa 25.0.7, in three families.
+/// The largest number of registers spilled by the program with everything: 38 to 51 with Mesa 25.0.7, in
+/// three families.
 const SPILLED: u64 = 56;
 
 #[test]
@@ -69,13 +71,13 @@ fn each_scene_is_one_program_that_fits_its_registers_and_is_no_larger_than_that_
             let everything = Figures::of(&everything, family);
             let own = Figures::of(&own, family);
             println!("{scene}, {family}: {own:?}");
-            // With all effects the two differ in one constant, and a compiler's schedule is not monotonic.
+            // With all effects, the two differ in one constant, and a compiler's schedule is not monotonic.
             let all = effects.len() == Effect::ALL.len();
             assert!(own.spilled == 0 || all, "{scene}, {family}: {own:?}");
-            // While a strand is intersected, all that a path knows and a payload holds is alive.
+            // While a strand is intersected, the whole path state and payload are alive.
             assert!(own.spilled.max(everything.spilled) <= SPILLED, "{family}: {everything:?}");
             assert!(own.scratch <= everything.scratch || all, "{scene}, {family}: {own:?}");
-            // Mesa 26 keeps the traversal's stack in scratch, that of 02, too.
+            // Mesa 26 keeps the traversal's stack in scratch memory, also for 02.
             if mesa.contains("Mesa 25.") {
                 assert!(own.scratch == 0 || all, "{scene}, {family}: {own:?}");
             }

@@ -1,4 +1,4 @@
-//! Cost of lighting the point that shadow rays leave: two pipelines, two pictures.
+//! Lighting the point where shadow rays start would give the two pipelines different pictures.
 
 use reference::random::Random;
 use serde_json::json;
@@ -26,7 +26,7 @@ fn lighting_the_start_of_a_shadow_ray_changes_bits() {
         });
         let (differ, largest) = differing(&own, &everything);
         println!("{number}: {} pixels differ, by {largest:e} at most", differ.len());
-        // The test of the sixteen ends here, too.
+        // The test of all sixteen scenes would also stop here.
         if !differ.is_empty() {
             let (pixels, all) = (differ.len(), own.pixels.len());
             let found = json!({ "pixels": pixels, "all": all, "largest": largest });

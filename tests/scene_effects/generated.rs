@@ -1,4 +1,4 @@
-//! Scenes made from sets of effects, each with what the set calls for and nothing else.
+//! Scenes generated from sets of effects, each with exactly the effects of its set.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,13 +8,13 @@ use effects::Effect::{self, *};
 use effects::Effects;
 use reference::random::Random;
 
-/// A number with two digits, so that text and float agree on it.
+/// A number with two digits, so that its text and its float are equal.
 fn between(random: &mut Random, low: f64, high: f64) -> f64 {
     (random.between(low, high) * 100.0).round() / 100.0
 }
 
-/// The effects of a set that a scene can call for together: holes, textures and lines need triangles, a
-/// light's size needs shadows, and a mirror, a pattern, glass and an emitter need a surface.
+/// The effects of a set that a scene can have together: holes, textures and lines need triangles, a light's
+/// size needs shadows, and a mirror, a pattern, glass and an emitter need a surface.
 pub fn possible(mut set: Effects) -> Effects {
     for &effect in Effect::ALL {
         if !needed_by(effect).iter().all(|&needed| set.has(needed)) {
@@ -36,7 +36,7 @@ pub fn possible(mut set: Effects) -> Effects {
     set
 }
 
-/// Effects that a scene with an effect also needs: holes, textures and lines are on triangles.
+/// The effects required by an effect: holes, textures and lines are on triangles.
 fn needed_by(effect: Effect) -> &'static [Effect] {
     match effect {
         Textures | CutOut | Wireframe => &[Triangles],
@@ -46,7 +46,7 @@ fn needed_by(effect: Effect) -> &'static [Effect] {
     }
 }
 
-/// Two effects that no set has in one of the four ways that are possible: neither, one, the other, both.
+/// Two effects that no set has in one of the four possible ways: neither, one, the other, both.
 pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
     let ways = [(false, false), (true, false), (false, true), (true, true)];
     let is_seen = |a: Effect, b: Effect| {
@@ -60,12 +60,12 @@ pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
     pairs.filter(|&(a, b)| a < b).find(|&(a, b)| !is_seen(a, b))
 }
 
-/// Sixteen sets in which each two effects are seen in all four ways that are possible.
+/// Sixteen sets that contain each pair of effects in all four possible ways.
 ///
-/// Each effect is in half of the sets, and never in the first: of two different halves neither holds the
-/// other, they have a set in common, and none has the first (Kleitman and Spencer, "Families of
-/// k-independent sets", 1973: that is enough for thousands of effects). [`possible`] takes some out again.
-/// So halves are drawn until no pair is lost, and no ray leaves a surface in one of the sets.
+/// Each effect is in half of the sets, and never in the first: of two different halves neither contains the
+/// other, they have a set in common, and none has the first (Kleitman and Spencer, "Families of k-independent
+/// sets", 1973: that is enough for thousands of effects). [`possible`] removes some again. So halves are
+/// drawn until no pair is lost, and no ray leaves a surface in one of the sets.
 pub fn all_pairs() -> Vec<Effects> {
     let mut random = Random(16);
     let drawn = (0..100_000).map(|_| {
@@ -81,14 +81,14 @@ pub fn all_pairs() -> Vec<Effects> {
     drawn.find(|sets| sets.iter().any(leaves_nothing)).expect("sixteen sets are enough")
 }
 
-/// Tests whether there is something to see, and no ray leaves it: only a pipeline without such rays computes no
+/// Returns whether something is visible, and no ray leaves it: only a pipeline without such rays computes no
 /// start.
 fn leaves_nothing(set: &Effects) -> bool {
     let leaving = [PointShadows, DirectionalShadows, Mirror, Bounces, Glass, Emitters];
     set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)
 }
 
-/// Eight of sixteen, without the first.
+/// A random half of sixteen, without the first.
 fn half(random: &mut Random) -> u32 {
     loop {
         let bits = random.bits() as u32 & 0xfffe;
@@ -98,7 +98,7 @@ fn half(random: &mut Random) -> u32 {
     }
 }
 
-/// Writes a scene that calls for a set of effects, and its model, into a folder.
+/// Writes a scene with a set of effects, and its model, to a folder.
 pub fn write(folder: &Path, name: &str, set: Effects, random: &mut Random) -> PathBuf {
     fs::write(folder.join("model.obj"), MODEL).unwrap();
     fs::write(folder.join("model.mtl"), MATERIALS).unwrap();
@@ -166,7 +166,7 @@ fn text(set: Effects, random: &mut Random) -> String {
     if has(DepthOfField) {
         text += &format!("lens = {{ diameter = {}, blades = 6 }}\n", n(0.05, 0.3));
     }
-    // Both kinds of light shine everywhere; what differs is which casts shadows.
+    // Both kinds of light are everywhere; only the effect decides which casts shadows.
     let size = if has(AreaLight) { 0.2 } else { 0.0 };
     text += &format!(
         "[[light]]\nkind = \"directional\"\nazimuth = {}\nelevation = {}\nradiance = [2, 2, 1.6]\n\
@@ -218,7 +218,7 @@ fn text(set: Effects, random: &mut Random) -> String {
             n(1.0, 9.0)
         );
     }
-    // Without one, every mesh of the model would be placed.
+    // Otherwise, every mesh of the model would be placed.
     if has(Triangles) {
         let pieces = [
             ("tent", "sheet", true),

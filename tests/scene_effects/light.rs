@@ -1,4 +1,4 @@
-//! Bounces, glass, emitters and a lens against what can be said by hand.
+//! Bounces, glass, emitters and a lens, compared with results computed by hand.
 
 use std::fs;
 use std::path::Path;
@@ -8,12 +8,12 @@ use effects::{Effect, findings};
 
 use super::run;
 
-/// The picture of a scene, 32 by 20 pixels or as large as asked for.
+/// The picture of a scene, 32 by 20 pixels or of the given size.
 fn picture(size: &str, text: &str) -> Picture {
     picture_in(tempfile::tempdir().unwrap().path(), size, text)
 }
 
-/// As [`picture`], of a scene whose file is in a folder.
+/// As [`picture`], for a scene whose file is in a folder.
 fn picture_in(folder: &Path, size: &str, text: &str) -> Picture {
     let file = folder.join("s.toml");
     fs::write(&file, format!("version = 1\n{text}")).unwrap();
@@ -24,7 +24,7 @@ const CAMERA: &str = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfield_of_vi
 
 #[test]
 fn a_room_that_shines_gathers_a_geometric_series() {
-    // A box around the camera, whose sides scatter half of the light and shine as strongly as 1.
+    // A box around the camera, whose sides scatter half of the light and emit 1.
     let room = |bounces: u32| {
         picture(
             "32x20",
@@ -36,7 +36,7 @@ fn a_room_that_shines_gathers_a_geometric_series() {
         )
     };
     for bounces in [0, 1, 3, 8] {
-        // 1 + 1/2 + 1/4 + ..., and half of the last from the sky that is taken to be around.
+        // 1 + 1/2 + 1/4 + ..., and half of the last from the assumed sky around.
         let part = 0.5f32.powi(bounces as i32 + 1);
         let sum = 2.0 * (1.0 - part);
         for pixel in &room(bounces).pixels {
@@ -70,13 +70,13 @@ fn a_red_wall_colours_the_floor_beside_it() {
     };
     let (without, with) = (floor(0), floor(2));
     println!("red over blue: {without} without bounces, {with} with two");
-    // The sky from above, and what the sun sends at 30 degrees.
+    // The sky from above, and the sun's contribution at 30 degrees.
     let sun = 3.0 * 0.5 / std::f32::consts::PI;
     assert!((without - (0.42 + sun) / (0.55 + sun)).abs() < 1e-3, "{without}");
     assert!(with > 1.15 * without, "{with}");
 }
 
-/// A box of glass, two units thick, before a ball that shines, as the camera sees it.
+/// A box of glass, two units thick, in front of a luminous ball, seen by the camera.
 fn before_a_ball(glass: &str) -> [f32; 3] {
     let text = format!(
         "{CAMERA}[[material]]\nname = \"lamp\"\ncolor = [0, 0, 0]\nemission = [1, 1, 1]\n\
@@ -97,7 +97,7 @@ fn pane(keys: &str) -> String {
 #[test]
 fn glass_absorbs_by_the_length_of_the_way() {
     assert_eq!(before_a_ball(""), [1.0; 3]);
-    // Index 1 reflects nothing, and bends no ray: the way is 2, but for the angle of the pixel.
+    // Index 1 reflects nothing and bends no ray: the path is 2, up to the angle of the pixel.
     let seen = before_a_ball(&pane("index = 1\nthrough = [0.5, 0.25, 1]\n"));
     println!("through two units: {seen:?}");
     for (seen, expected) in seen.into_iter().zip([0.25, 0.0625, 1.0]) {
@@ -107,8 +107,9 @@ fn glass_absorbs_by_the_length_of_the_way() {
 
 #[test]
 fn from_within_glass_a_flat_angle_is_reflected_as_a_whole() {
-    // The camera is in a cube of glass, and looks at an edge of it: 45 degrees to both sides, which is more
-    // than the 41.8 degrees of index 1.5. No light comes in that way, whatever is outside.
+    // The camera is inside a cube of glass, and looks at an edge of it: 45 degrees to both sides, which
+    // exceeds the critical angle of 41.8 degrees for index 1.5. No light comes in that way, whatever is
+    // outside.
     let seen = |target: &str, index: f32| {
         let text = format!(
             "[picture]\ndepth = 12\n[camera]\neye = [0, 0.05, 0]\ntarget = {target}\n\
@@ -121,11 +122,11 @@ fn from_within_glass_a_flat_angle_is_reflected_as_a_whole() {
     assert!(seen("[1, 0.05, 1]", 1.5).iter().all(is_dark), "an edge lets light in");
     assert!(seen("[1, 0.05, 1]", 1.2).iter().any(|pixel| !is_dark(pixel)), "1.2 is below");
     let dark = seen("[0, 0.05, 1]", 1.5).iter().filter(|pixel| is_dark(pixel)).count();
-    // A side reflects 4 %, and the side behind the camera lets that out.
+    // A side reflects 4 %, which the side behind the camera transmits.
     assert!(dark == 0, "{dark} pixels are dark, looking straight at a side");
 }
 
-/// The mean of a floor's red and of its blue, right below what shines, by night.
+/// The mean of a floor's red and of its blue, directly below an emitter, at night.
 fn lit_floor(bounces: u32, lamp: &str) -> [f64; 2] {
     lit_floor_in(tempfile::tempdir().unwrap().path(), bounces, "", lamp)
 }
@@ -147,10 +148,11 @@ const BALL: &str = "[[sphere]]\ncenter = [0, 3, 0]\nradius = 1\nmaterial = \"lam
 
 #[test]
 fn a_ball_lights_the_floor_by_the_square_of_its_sine() {
-    // Below its middle a ball that shines sends pi·L·(r/d)^2, of which the floor scatters a part over pi.
+    // Below its middle, a luminous ball sends pi·L·(r/d)^2, of which the floor scatters a fraction divided by
+    // pi.
     let expected = [0.8, 0.4].map(|color| color * 5.0 / 9.0);
     for bounces in [0, 1, 4] {
-        // With bounces paths meet the ball by chance, too, and it is counted once.
+        // With bounces, paths also hit the ball at random, but it only counts once.
         for (found, expected) in lit_floor(bounces, BALL).into_iter().zip(expected) {
             println!("{bounces} bounces: {found}, not {expected}");
             assert!((found / expected - 1.0).abs() < 0.01, "{bounces}: {found}, not {expected}");
@@ -160,13 +162,14 @@ fn a_ball_lights_the_floor_by_the_square_of_its_sine() {
 
 #[test]
 fn what_chance_alone_finds_is_as_bright() {
-    // No shadow ray asks a box; and none comes through glass, though this bends no ray and takes no light.
+    // Shadow rays do not test a box; and none passes through glass, although this glass bends no ray and
+    // absorbs nothing.
     let glass = "[[material]]\nname = \"glass\"\nglass = \"thick\"\nindex = 1\n[[box]]\n\
                  low = [-2, 1, -2]\nhigh = [2, 5, 2]\nmaterial = \"glass\"\n";
     let [free, _] = lit_floor(1, BALL);
     let [in_glass, _] = lit_floor(1, &format!("{BALL}{glass}"));
     println!("a ball: {free}; in glass: {in_glass}");
-    // One path of nine meets it, of 41,000: three times the deviation is 0.04.
+    // One path in nine hits it, of 41,000: three times the deviation is 0.04.
     assert!((in_glass / free - 1.0).abs() < 0.04, "{in_glass}, not {free}");
     let plate = "[[box]]\nlow = [-1, 2, -1]\nhigh = [1, 2.002, 1]\nmaterial = \"lamp\"\n";
     let [by_chance, _] = lit_floor(1, plate);
@@ -212,8 +215,8 @@ fn what_shines_calls_for_shadow_rays_if_something_scatters_its_light() {
 
 #[test]
 fn a_lens_blurs_an_edge_by_its_distance_from_the_focus() {
-    // The edge is at 5; points at `focus` are sharp. A point at z is a disk as wide as diameter·|z - f| / f, seen
-    // at z; across a straight edge, a disk's standard deviation is a quarter of its width.
+    // The edge is at 5; points at `focus` are sharp. A point at z becomes a disk of diameter·|z - f| / f at
+    // z; across a straight edge, a disk's standard deviation is a quarter of its width.
     let spread = |lens: &str| {
         let text = format!(
             "[picture]\nsamples = 64\n{CAMERA}{lens}[[material]]\nname = \"lamp\"\ncolor = [0, 0, 0]\n\
@@ -222,7 +225,7 @@ fn a_lens_blurs_an_edge_by_its_distance_from_the_focus() {
         );
         let (width, height) = (96, 60);
         let picture = picture("96x60", &text);
-        // The mean of all rows, and where in it the edge is.
+        // The mean of all rows, and the place of the edge in it.
         let row: Vec<f64> = (0..width)
             .map(|x| (0..height).map(|y| f64::from(picture.pixels[y * width + x][1])).sum())
             .collect();
@@ -240,7 +243,7 @@ fn a_lens_blurs_an_edge_by_its_distance_from_the_focus() {
     for (diameter, focus) in [(0.3, 3.0), (0.3, 9.0), (0.2, 2.5)] {
         let lens = format!("lens = {{ diameter = {diameter}, focus = {focus} }}\n");
         let expected = diameter * (5.0_f64 - focus).abs() / focus / pixel / 4.0;
-        // A pixel's own width blurs, too.
+        // A pixel's own width also blurs.
         let found = (spread(&lens).powi(2) - 1.0 / 6.0).sqrt();
         println!("diameter {diameter}, focus {focus}: {found} pixels, not {expected}");
         assert!((found / expected - 1.0).abs() < 0.05, "{found} pixels, not {expected}");

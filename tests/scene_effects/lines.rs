@@ -1,4 +1,4 @@
-//! Lines along edges: as wide in pixels as asked for, as chapter 20 has them, and in a mirror, too.
+//! Lines along edges: with the requested width in pixels, as in chapter 20, and also in a mirror.
 
 use std::fs;
 
@@ -7,8 +7,7 @@ use super::run;
 /// Two triangles with an upright edge in common.
 const SHEET: &str = "v 0 -2 0\nv 0 2 0\nv -2 0 0\nv 2 0 0\no sheet\nf 1 2 3\nf 2 1 4\n";
 
-/// The ink in the middle row of a picture, in pixels: on a white sheet at a place, without any light but
-/// that of the sky.
+/// The ink in the middle row of a picture, in pixels: on a white sheet at a position, lit only by the sky.
 fn ink(lines: f32, z: f32, mirror: &str) -> f32 {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("model.obj"), SHEET).unwrap();
@@ -21,7 +20,7 @@ fn ink(lines: f32, z: f32, mirror: &str) -> f32 {
     fs::write(&file, text).unwrap();
     let picture = run("64x21", &["--scene", file.to_str().unwrap()], &[]).picture;
     let row: Vec<f32> = (0..64).map(|x| picture.pixels[10 * 64 + x][1]).collect();
-    // The sheet ends left and right of these.
+    // Beyond these are the left and right ends of the sheet.
     let row = &row[22..42];
     row.iter().map(|green| 1.0 - green / row[0]).sum()
 }
@@ -31,7 +30,7 @@ fn a_line_is_as_wide_as_asked_for() {
     for lines in [0.25, 1.0, 3.0, 7.5] {
         let ink = ink(lines, 0.0, "");
         println!("{lines} pixels: {ink}");
-        // As chapter 20 has it. The edge goes through the picture's middle, where cone and pixel agree.
+        // As in chapter 20. The edge goes through the picture's middle, where cone and pixel agree.
         assert!((ink - lines).abs() < 0.001, "{lines}: {ink}");
     }
 }

@@ -1,4 +1,4 @@
-//! 25_scene_effects: what a scene calls for, that nothing else is compiled, and that no picture changes.
+//! 25_scene_effects: the effects a scene triggers; nothing else is compiled, and no picture changes.
 
 mod compiled;
 mod departures;
@@ -22,8 +22,8 @@ use run::{Chapter, Run, bits, expected, golden, render, root, same_colors, set_a
 
 const NAME: &str = "25_scene_effects";
 
-/// The chapter's own scenes: the effects that each calls for, and the stages, by hand. Every pipeline
-/// has `camera.rgen` and `sky.rmiss`.
+/// The chapter's own scenes: the effects of each, and the stages, listed by hand. Every pipeline has
+/// `camera.rgen` and `sky.rmiss`.
 const SCENES: [(&str, &[Effect], &[&str]); 20] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
@@ -133,7 +133,7 @@ fn run(size: &str, scene: &[&str], sets: &[&str]) -> Run {
 /// A pixel's number, and its colours in two pictures.
 type Pair<'a> = (usize, (&'a [f32; 4], &'a [f32; 4]));
 
-/// The pixels in which two pictures differ, and by how much they do at most.
+/// The pixels in which two pictures differ, and their largest difference.
 fn differing<'a>(one: &'a Picture, other: &'a Picture) -> (Vec<Pair<'a>>, f32) {
     let pairs = one.pixels.iter().zip(&other.pixels).enumerate();
     let differ: Vec<Pair> = pairs.filter(|(_, (one, other))| one != other).collect();
@@ -144,8 +144,8 @@ fn differing<'a>(one: &'a Picture, other: &'a Picture) -> (Vec<Pair<'a>>, f32) {
     (differ, largest)
 }
 
-/// Renders a scene by its own pipeline and by that which has everything, holds that both pictures are
-/// the same to the bit, and returns the first run.
+/// Renders a scene with its own pipeline and with the one that has everything, checks that both pictures are
+/// equal bit for bit, and returns the first run.
 fn same_by_both(size: &str, scene: &[&str]) -> Run {
     let [own, everything] =
         ["specialised", "everything"].map(|p| run(size, scene, &[&format!("pipeline={p}")]));
@@ -153,7 +153,7 @@ fn same_by_both(size: &str, scene: &[&str]) -> Run {
     own
 }
 
-/// Checks that a run's pipeline is made of these stages, by the modules that the driver got.
+/// Checks that a run's pipeline has these stages, by the modules passed to the driver.
 fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str) {
     let pipeline = &report["chapter"]["pipeline"];
     assert_eq!(pipeline["effects"], json!(effects.names()), "{name}");
@@ -172,7 +172,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         let (path, module) = (stage["path"].as_str().unwrap(), &stage["module"]);
         let place = format!("{name}: {path}");
         let (kind, traces, reports) = match path.rsplit_once('.').unwrap().1 {
-            // One place for all rays of the path, and one for all shadow rays.
+            // One location for all rays of the path, and one for all shadow rays.
             "rgen" => ("RayGeneration", 1 + u64::from(shadows), 0),
             "rmiss" => ("Miss", 0, 0),
             "rchit" => ("ClosestHit", 0, 0),
@@ -192,9 +192,9 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     let hits = kinds.into_iter().filter(|&kind| effects.has(kind)).count();
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
-    // Position, distance, normal, material and colour; where rays leave, height and face; the way to the
-    // round surface; from where it came into a body; which emitter it is; how round it is; and the ray's cone. A
-    // shadow ray has a payload of its own, of one bool.
+    // Position, distance, normal, material and colour; the start of new rays, height and face; the offset to
+    // the round surface; the body it came into; the emitter; its curvature; and the ray's cone. A shadow ray
+    // has its own payload, a bool.
     let cones = effects.has_any(&[Plane, Heightfield, Wireframe, FilteredTextures]);
     let leaves = shadows || effects.has_any(&[Mirror, Bounces, Glass]);
     let payload = 11
@@ -222,7 +222,7 @@ fn set_of(effects: &[Effect]) -> Effects {
 
 #[test]
 fn the_picture_is_the_golden_one() {
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden picture and reproduces it bit for bit.
     golden("25_scene_effects", &render(NAME, "240x150", &[]).picture, 0.002);
 }
 
@@ -332,7 +332,7 @@ fn an_edit_that_changes_the_set_changes_the_pipeline() {
     }
 }
 
-/// Entries of `Cargo.toml` for each chapter: its name and its effects.
+/// The entries of `Cargo.toml` for each chapter: its name and its effects.
 fn declared() -> Vec<(String, Vec<String>)> {
     let manifest: toml::Value =
         toml::from_str(&std::fs::read_to_string(root().join("Cargo.toml")).unwrap()).unwrap();
@@ -366,7 +366,7 @@ fn every_effect_that_a_chapter_declares_is_in_the_table_and_in_the_shaders() {
     for &effect in Effect::ALL {
         let define = effect.define();
         assert!(everything.contains(&format!("#define {define}\n")), "effects.glsl lacks {define}");
-        // Each effect has a stage or a line of its own. Geometry has none: its stages are chosen.
+        // Each effect has its own stage or line. Geometry has none: its stages are chosen.
         let used = sources.iter().filter(|text| text.contains(&define)).count();
         let geometry =
             [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids].contains(&effect);
@@ -392,7 +392,7 @@ fn the_page_lists_every_scene_and_every_effect() {
     }
 }
 
-/// The page of the format.
+/// The page about the format.
 fn format_page() -> String {
     std::fs::read_to_string(root().join("docs/scene-format.md")).unwrap()
 }
@@ -400,7 +400,7 @@ fn format_page() -> String {
 #[test]
 fn the_page_of_the_format_lists_every_key() {
     let page = format_page();
-    // What the reader of files says that it knows, table by table.
+    // The keys that the file reader accepts, table by table.
     let tables = ["[camera]", "[picture]", "[plane]", "[heightfield]"];
     let lists = [
         "[[light]]",
@@ -432,7 +432,8 @@ fn the_page_of_the_format_lists_every_key() {
     }
 }
 
-/// Its example is a scene, and each line of its table of refusals makes it one that is refused so.
+/// Its example is a valid scene, and each line of its table of refusals turns it into one that is refused
+/// accordingly.
 #[test]
 fn the_page_of_the_format_is_true() {
     let page = format_page();
@@ -482,8 +483,8 @@ fn each_gathered_sample_has_rays_of_its_own() {
         for (channel, &mean) in mean.iter().take(3).enumerate() {
             let [a, b] = [&first, &second].map(|p| f64::from(p.pixels[i][channel]));
             assert_eq!(mean.to_bits(), (((a + b) / 2.0) as f32).to_bits(), "pixel {i}");
-            // The same four rays, in another order of adding: three sums round, and a division within
-            // the 2.5 units that Vulkan grants, on either side.
+            // The same four rays, added in another order: three sums are rounded, and a division has an error
+            // of up to the 2.5 units that Vulkan allows, in either direction.
             let bound = 2.0 * (3.0 + 5.0) * 0.5f64.powi(24) * f64::from(mean);
             let error = f64::from(four.pixels[i][channel] - mean).abs();
             assert!(error <= bound, "pixel {i}: {} and {}", four.pixels[i][channel], mean);
@@ -498,7 +499,7 @@ fn rays_beyond_the_last_number_are_refused_and_not_those_of_the_first_again() {
     let out = folder.path().join("a.png");
     let sets =
         ["--headless", "--size", "8x8", "--set", "scene=soft evening", "--set", "samples=64"];
-    // 64 rays a sample: this one would begin with ray 2^32.
+    // 64 rays per sample: this one would begin with ray 2^32.
     let last = ["--samples", "67108864..67108865", "--out", out.to_str().unwrap()];
     let (code, line) = run::refused(NAME, &[&sets[..], &last].concat());
     assert!(code == 1 && line.contains("rays are numbered up to 2^32"), "{code}: {line}");

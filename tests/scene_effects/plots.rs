@@ -1,5 +1,5 @@
-//! The measured tables of the page and a plot of one. Made when asked for:
-//! `cargo test --test scene_effects plots -- --ignored --nocapture`.
+//! The page's measured tables and a plot of one of them. On request only: `cargo test --test scene_effects
+//! plots -- --ignored --nocapture`.
 
 use serde_json::{Map, Value, json};
 
@@ -7,8 +7,8 @@ use super::{NAME, SCENES};
 use run::plot::{Axis, Chart, Series, draw};
 use run::{command, expected};
 
-/// A report of a run without validation, which would be timed as well. The driver's cache is off, so that
-/// each pipeline is compiled.
+/// The report of a run without validation, which would distort the times. The driver's cache is disabled, so
+/// that each pipeline is compiled.
 fn report(scene: &str, size: &str, more: &[&str]) -> Value {
     let output = command(NAME)
         .args(["--headless", "--report", "-", "--size", size])
@@ -21,9 +21,8 @@ fn report(scene: &str, size: &str, more: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("the report is JSON")
 }
 
-/// Milliseconds from the shaders' text to the first frame that is as fast as the others: the pipeline,
-/// and what the driver puts off to the first trace. The picture is tiny, so that tracing it takes no
-/// time. The least of three runs.
+/// Milliseconds from the shaders' source to the first frame at full speed: the pipeline, and work the driver
+/// defers to the first trace. The picture is tiny, so that tracing it takes no time. The least of three runs.
 fn compile_time(scene: &str) -> f64 {
     let times = (0..3).map(|_| {
         let report = report(scene, "16x10", &["--frames", "4"]);
@@ -39,7 +38,7 @@ fn spirv_kilobytes(report: &Value) -> f64 {
     stages.iter().map(|stage| stage["words"].as_f64().unwrap()).sum::<f64>() * 4.0 / 1024.0
 }
 
-/// Sizes of a scene's own pipeline, no times.
+/// The sizes of a scene's own pipeline, without times.
 fn sizes(scene: &str) -> [(&'static str, Value); 5] {
     let own = report(scene, "320x200", &[]);
     let pipeline = &own["chapter"]["pipeline"];
@@ -53,7 +52,7 @@ fn sizes(scene: &str) -> [(&'static str, Value); 5] {
     ]
 }
 
-/// A name as figures have it.
+/// A scene's name in the form used for figures.
 fn key(scene: &str, of: &str) -> String {
     format!("{}.{of}", scene.replace(' ', "-"))
 }
@@ -133,7 +132,7 @@ fn columns(page: &str) -> (Vec<&str>, [Vec<f64>; 4]) {
     (names, numbers)
 }
 
-/// The ticks between which the values lie: a dot outside of its chart would be drawn nowhere.
+/// The ticks that enclose the values: a dot outside of its chart would not be drawn.
 fn fitting(ticks: &[f64], values: &[f64]) -> Vec<f64> {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -142,7 +141,7 @@ fn fitting(ticks: &[f64], values: &[f64]) -> Vec<f64> {
     ticks[first..=last].to_vec()
 }
 
-/// Drawn from the page's table, so that the two say the same.
+/// Drawn from the page's table, so that the two agree.
 #[test]
 #[ignore = "by hand: draws docs/images/25_times.svg from the page's table"]
 fn times() {

@@ -1,4 +1,4 @@
-//! `--why`: a line for each effect, with the scene's reason and what leaving it out saves.
+//! `--why`: a line for each effect, with the reason in the scene and the savings without it.
 
 use std::process::Output;
 
@@ -25,7 +25,7 @@ fn every_effect_has_a_line_with_its_reason() {
         let start = format!("{sign}  {} ", effect.name());
         let line = out.lines().find(|line| line.starts_with(&start));
         let line = line.unwrap_or_else(|| panic!("no '{start}' in:\n{out}"));
-        // The sphere's shaders are most of this pipeline, and nothing is free of instructions.
+        // The sphere's shaders are most of this pipeline, so their instructions cannot be free.
         if effect == Effect::Spheres && !out.contains("No instructions: ") {
             let cells: Vec<&str> =
                 line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();

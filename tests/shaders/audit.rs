@@ -1,5 +1,5 @@
-//! Requirements and promises of every module, read from its SPIR-V: a device may take a promise at its word where
-//! the software driver does not.
+//! Requirements and promises of every module, read from its SPIR-V: a device may rely on a promise that the
+//! software driver ignores.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
@@ -14,11 +14,11 @@ use rspirv::spirv::{Capability, Decoration, ExecutionModel, Op, StorageClass};
 
 use crate::files;
 
-/// Minimum that Vulkan guarantees (table "Required Limits", `maxPushConstantsSize`).
+/// The guaranteed minimum in Vulkan (table "Required Limits", `maxPushConstantsSize`).
 const PUSH_CONSTANTS: u32 = 128;
 
-/// The capabilities that modules may declare, and what has to be asked for with them: `None` where ray
-/// tracing pipelines bring them, or Vulkan 1.3 does.
+/// The capabilities that modules may declare, and the feature each requires: `None` if ray tracing pipelines
+/// or Vulkan 1.3 include it.
 const CAPABILITIES: [(Capability, Option<&str>); 13] = [
     (Capability::Shader, None),
     (Capability::RayTracingKHR, None),
@@ -38,10 +38,10 @@ const CAPABILITIES: [(Capability, Option<&str>); 13] = [
     (Capability::RoundingModeRTE, Some("shaderRoundingModeRTEFloat32")),
 ];
 
-/// Requirements of a chapter, with the capabilities that come of it: the baseline of all, and its own.
+/// The requirements of a chapter, with the implied capabilities: the common baseline, and its own.
 fn asked_for(chapter: &str) -> Vec<&'static str> {
     let textures = ["runtimeDescriptorArray", "shaderSampledImageArrayNonUniformIndexing"];
-    // What the laboratory wishes for, and does without where it is not offered.
+    // Optional features of chapter 24, which also runs without them.
     let wishes = [
         "shaderFloat64",
         "shaderSignedZeroInfNanPreserveFloat32",
@@ -49,23 +49,23 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         "rayTracingPositionFetch",
     ];
     let own: &[&str] = match chapter {
-        // Its addresses are the host's alone.
+        // Only the host uses its addresses.
         "01_foundation" => return Vec::new(),
         "24_accuracy" => &wishes,
-        // What all chapters share adds up pictures.
+        // The shaders shared by all chapters accumulate pictures.
         "common" => &[],
         "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
         "16_ray_query" | "17_ray_query_raster" => &[textures[0], textures[1], "rayQuery"],
-        // It binds the scene's textures and reads none.
+        // It binds the scene's textures but samples none.
         "20_wireframe" => &["rayTracingPositionFetch"],
         _ => &textures,
     };
     [&["bufferDeviceAddress"], own].concat()
 }
 
-/// A compiled stage in one of its forms.
+/// A compiled stage with one set of macros.
 struct Form {
-    /// The shader's path, and what was defined.
+    /// The shader's path, and the defined macros.
     name: String,
     chapter: String,
     shader: Shader,
@@ -96,7 +96,7 @@ fn compiled() -> Vec<Form> {
             variants.extend(effects.iter().map(|effect| specialised(&[effect])));
         }
         for defines in variants {
-            // Not every stage of the laboratory is there for every primitive.
+            // Some stages of chapter 24 do not exist for every primitive.
             let Ok(shader) = Shader::of(&path, &defines, |stage| stage.words()) else {
                 assert_ne!(defines, [], "{path} does not compile");
                 continue;
@@ -112,7 +112,7 @@ fn compiled() -> Vec<Form> {
     forms
 }
 
-/// The macros by which chapter 25 leaves out what a scene does not call for.
+/// The macros with which chapter 25 leaves out the effects a scene does not have.
 fn effects() -> Vec<&'static str> {
     let file = run::root().join("shaders/25_scene_effects/effects.glsl");
     let text: &'static str = std::fs::read_to_string(file).expect("the effects").leak();
@@ -123,7 +123,7 @@ fn effects() -> Vec<&'static str> {
     names
 }
 
-/// The instruction that makes `id`.
+/// The instruction that defines `id`.
 fn made(module: &Module, id: u32) -> &Instruction {
     let functions = module.functions.iter().flat_map(|function| {
         let body = function.blocks.iter().flat_map(|block| &block.instructions);
@@ -155,7 +155,7 @@ fn decorated(module: &Module, id: u32, member: Option<u32>, wanted: Decoration) 
     })
 }
 
-/// Bytes of a type in memory.
+/// The size of a type in memory, in bytes.
 fn size(module: &Module, id: u32) -> u32 {
     let kind = made(module, id);
     match kind.class.opcode {
@@ -194,7 +194,7 @@ fn validate(name: &str, words: &[u32]) {
     let output = child.wait_with_output().expect("it ends");
     let said = [output.stdout, output.stderr].concat();
     let said = String::from_utf8_lossy(&said);
-    // That of Debian 12, 2023.1, is older than SPV_KHR_ray_tracing_position_fetch and
+    // The version in Debian 12, 2023.1, is older than SPV_KHR_ray_tracing_position_fetch and
     // SPV_EXT_shader_invocation_reorder.
     let newer = [
         ("10_position_fetch/shade.rchit", 5336),
@@ -220,7 +220,7 @@ fn every_module_is_valid() {
 /// The patch of the page *Threads that change places*.
 const REORDERING: &str = "docs/reordering.diff";
 
-/// Its hunks, a file each: what stands there, and what takes its place.
+/// Its hunks by file: the old text, and the new text.
 fn hunks(patch: &str) -> Vec<(&str, Vec<[String; 2]>)> {
     let mut files: Vec<(&str, Vec<[String; 2]>)> = Vec::new();
     for line in patch.lines() {
@@ -242,7 +242,7 @@ fn hunks(patch: &str) -> Vec<(&str, Vec<[String; 2]>)> {
     files
 }
 
-/// No device of this project runs it: so it is held to what can be held without one.
+/// No device of this project runs it, so only checks without a device are possible.
 #[test]
 fn reordering_is_a_patch_that_applies_and_whose_module_is_valid() {
     let read = |file: &str| std::fs::read_to_string(run::root().join(file)).expect("a text");
@@ -268,17 +268,17 @@ fn reordering_is_a_patch_that_applies_and_whose_module_is_valid() {
     let reorders = Operand::Capability(Capability::ShaderInvocationReorderEXT);
     assert!(module.capabilities.iter().any(|declared| declared.operands[0] == reorders));
     validate(REORDERING, &shader.spirv);
-    // The framework takes the hit object's payload for one that is passed, and the shadow ray's beside it.
+    // The framework treats the hit object's payload as a passed payload, next to that of the shadow ray.
     let passed = Reflection::of(&shader.spirv).expect("SPIR-V").payloads().passed;
     let misses: Vec<_> = passed.iter().map(|passed| passed.miss).collect();
     assert_eq!(misses, [Some(0), Some(1)]);
 }
 
-/// The rewrite knows every operation of every shader, and what it makes of them is SPIR-V.
+/// The rewriter knows every operation of every shader, and its results are valid SPIR-V.
 #[test]
 fn every_module_is_valid_in_the_worst_arithmetic() {
     let worst = Arithmetic::WorstByPlace;
-    // 01 makes its pipeline itself; 24 has a form for each primitive, and all are run in its tests.
+    // 01 makes its pipeline itself; 24 has a form for each primitive, all of which run in its tests.
     let apart = |file: &str| file.starts_with("01_") || file.starts_with("24_");
     let stages = files().into_iter().filter(|file| !file.ends_with("glsl"));
     for path in stages.filter(|file| !apart(file)) {
@@ -345,12 +345,12 @@ fn modules_declare_what_their_chapter_asks_for_and_no_more() {
             }
         }
     }
-    // Of all that a chapter asks for, some shader has a use.
+    // Every requirement of a chapter is used by some shader.
     asked_in_vain.retain(|_, left| !left.is_empty());
     assert_eq!(asked_in_vain, BTreeMap::new());
 }
 
-/// The block that a pointer into addressed memory begins at, and its member: for a store or a load.
+/// The block and the member that a pointer into addressed memory refers to, for a store or a load.
 fn block(module: &Module, mut pointer: u32) -> Option<(u32, u32)> {
     let mut member = None;
     loop {
@@ -372,17 +372,17 @@ fn block(module: &Module, mut pointer: u32) -> Option<(u32, u32)> {
     }
 }
 
-/// Memory that one shader of a trace writes and another reads has to be coherent (GLSL_EXT_ray_tracing,
-/// "shadercallcoherent"; Vulkan specification, "Shader Call Order"). In the memory model of these modules
-/// that is said by the decoration `Coherent`, for which GLSL has `coherent` alone.
+/// Memory written by one shader of a trace and read by another must be coherent (GLSL_EXT_ray_tracing,
+/// "shadercallcoherent"; Vulkan specification, "Shader Call Order"). In the memory model of these modules,
+/// that requires the decoration `Coherent`, for which GLSL only has `coherent`.
 #[test]
 fn what_a_trace_writes_in_one_stage_and_another_reads_is_coherent() {
-    // By chapter and block: the stages that write and that read or write, and those forms that do not say
-    // that it is coherent.
+    // By chapter and block: the stages that write, those that read or write, and the forms that lack the
+    // decoration.
     let mut blocks: BTreeMap<(String, String), [BTreeSet<String>; 3]> = BTreeMap::new();
     for Form { name, chapter, module, .. } in forms() {
         let Operand::ExecutionModel(model) = module.entry_points[0].operands[0] else { continue };
-        // No other stage runs beside a compute shader.
+        // No other stage runs together with a compute shader.
         if model == ExecutionModel::GLCompute {
             continue;
         }

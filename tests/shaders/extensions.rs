@@ -1,4 +1,4 @@
-//! Shaders for extensions that no driver here offers: they are compiled, and never run.
+//! Shaders for extensions that no driver here supports: compiled, but never run.
 
 use common::gpu::shader::to_spirv;
 
@@ -8,7 +8,7 @@ const BUILT_IN: u32 = 11;
 /// `OpTraceRayMotionNV`.
 const OP_TRACE_RAY_MOTION: u32 = 5339;
 
-/// The instructions of a module: each the code of its operation, and its operands.
+/// The instructions of a module: each with its opcode and its operands.
 fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     let mut rest = &words[5..];
     std::iter::from_fn(move || {
@@ -19,7 +19,7 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     })
 }
 
-/// Built-in variables that a module reads, by SPIR-V's numbers, in their order.
+/// The built-in variables read by a module, as numbered in SPIR-V, in order.
 fn built_in(words: &[u32]) -> Vec<u32> {
     let decorations = instructions(words)
         .filter(|(code, operands)| *code == OP_DECORATE && operands.get(1) == Some(&BUILT_IN));
@@ -40,7 +40,8 @@ fn a_ray_has_a_time_and_the_hit_shader_reads_it() {
     assert_eq!(built_in(&hit), [5334]);
 }
 
-/// 18: a hit shader that reads ends and radii of the device's own swept spheres (`GL_NV_linear_swept_spheres`).
+/// 18: a hit shader that reads the ends and radii of the device's own swept spheres
+/// (`GL_NV_linear_swept_spheres`).
 #[test]
 fn the_hit_shader_of_a_device_s_swept_sphere_compiles() {
     let text = include_str!("../samples/swept_spheres/nv.rchit");

@@ -1,4 +1,4 @@
-//! Shaders as the samples read them: each compiles, is used, and has its structures as Rust has them.
+//! All shaders of the samples: each compiles, is used, and declares its structures like Rust.
 
 mod audit;
 mod extensions;
@@ -12,11 +12,11 @@ use common::gpu::{Known, Reflection, Scalar, StructLayout};
 use common::scene::{CameraBasis, DirectionalLight, SceneAddresses};
 
 common::shader_struct! {
-    /// The structures that every chapter from 02 on shares with its shaders.
+    /// The structures shared by every chapter from 02 on with its shaders.
     struct Shared { scene: SceneAddresses, camera: CameraBasis, sun: DirectionalLight }
 }
 
-/// Extension of files that are only included; everything else is a stage.
+/// The extension of files that are only included; all others are stages.
 const INCLUDED: &str = "glsl";
 
 /// Every file below `shaders/`, with `/` between the parts of its path.
@@ -130,7 +130,7 @@ fn a_structure_at_an_address_that_rust_does_not_know_is_refused_by_name() {
 fn every_file_is_used_by_a_chapter() {
     let mut used = BTreeSet::new();
     let plain = run::chapters().into_iter().map(|chapter| (chapter, vec![]));
-    // Their pictures take one pipeline of many.
+    // Their pictures use one of their many pipelines.
     let gathered = ("04_jitter_camera".to_owned(), vec!["--samples", "0..1"]);
     let best = ("24_accuracy".to_owned(), vec!["--set", "rung=64 bits"]);
     let recursive = ("06_reflection".to_owned(), vec!["--set", "method=recursive"]);
@@ -163,13 +163,13 @@ fn every_file_is_used_by_a_chapter() {
     for stage in measured["stages"].as_array().expect("stages are listed") {
         used.extend(compile(stage.as_str().expect("a path")).unwrap().files());
     }
-    // The atlas tells no stages: its source names them, and its own tests run them all.
+    // The atlas does not list its stages: its source names them, and its own tests run them all.
     let tracer = run::root().join("samples/24_accuracy/atlas/tracer.rs");
     let tracer = std::fs::read_to_string(tracer).expect("a source");
     for stage in tracer.split('"').filter(|word| word.starts_with("atlas")) {
         used.extend(compile(&format!("24_accuracy/{stage}")).unwrap().files());
     }
-    // Nor do the trees that are built on the device, and the shaders that answer their tests.
+    // The same holds for trees built on the device, and for the shaders used by their tests.
     for source in ["on_device.rs", "on_gpu.rs"] {
         let source = run::root().join("samples/30_own_tree").join(source);
         let source = std::fs::read_to_string(source).expect("a source");

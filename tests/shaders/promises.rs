@@ -1,7 +1,7 @@
-//! Results of shaders where Vulkan promises less than a reader may think: "Precision and Operation of SPIR-V
+//! Results of shaders where Vulkan promises less than a reader may expect: "Precision and Operation of SPIR-V
 //! Instructions" in the specification's appendix "Vulkan Environment for SPIR-V".
 //!
-//! The functions run on the device, as they stand in the book.
+//! The functions run on the device, exactly as in the book.
 
 use std::fs;
 
@@ -11,10 +11,10 @@ use common::gpu::{Gpu, GpuOptions, Requirements};
 
 use super::files;
 
-/// Half of the distance from 1 to the next float: the error of one rounding, relative.
+/// Half the distance from 1 to the next float: the relative error of one rounding.
 const U: f64 = 1.0 / 16777216.0;
 
-/// Every line of code of every shader, with its place.
+/// All lines of code of all shaders, with their places.
 fn lines() -> impl Iterator<Item = (String, String)> {
     files().into_iter().flat_map(|file| {
         let text = fs::read_to_string(run::root().join("shaders").join(&file)).expect("a shader");
@@ -24,7 +24,7 @@ fn lines() -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// Callers of a function: files, each once.
+/// The files that call a function, each once.
 fn callers(function: &str) -> Vec<String> {
     let calls = |line: &str| {
         line.match_indices(&format!("{function}("))
@@ -39,18 +39,18 @@ fn callers(function: &str) -> Vec<String> {
 
 #[test]
 fn no_shader_raises_to_a_power_whose_base_may_be_zero() {
-    // pow(0, 0) is undefined, and pow() inherits log2's error: where the base is near 1, that is
-    // 2^-21 times the exponent.
+    // pow(0, 0) is undefined, and pow() inherits log2's error, which for a base near 1 is 2^-21 times the
+    // exponent.
     assert_eq!(callers("pow"), [""; 0]);
 }
 
-/// The exponents that are tried: no highlight at all, those of materials, roughness 0.05, and beyond.
+/// The tested exponents: no highlight at all, those of materials, roughness 0.05, and beyond.
 const EXPONENTS: [f64; 8] = [0.0, 0.5, 1.0, 10.0, 200.0, 5e3, 319_998.0, 3e6];
 
 #[test]
 fn highlights_are_as_exact_as_their_bound_says() {
-    // One column an angle between the normal and the vector half-way from eye to light, one row an
-    // exponent. What comes back is the sum of 02_basic for a white highlight, and the vector.
+    // One column per angle between the normal and the vector half-way between eye and light, one row per
+    // exponent. The result is the sum of 02_basic for a white highlight, and the vector.
     let exponents = EXPONENTS.map(|n| format!("{n:.1}")).join(", ");
     let body = format!(
         "float n = float[]({exponents})[at.y];\n\
@@ -67,14 +67,14 @@ fn highlights_are_as_exact_as_their_bound_says() {
         let [color, x, _, z] = pixel.map(f64::from);
         assert!(color.is_finite(), "exponent {n}, cosine {z}: {color}");
         let lambert = z / std::f64::consts::PI;
-        // The highlight is e^-E times its peak; where E is above 20, it is too dark to be seen.
+        // The highlight is e^-E times its peak; if E is above 20, it is too dark to be visible.
         let e = n * 0.5 * (x / z).powi(2).ln_1p();
         if lambert == 0.0 || e > 20.0 {
             continue;
         }
         let highlight = color / lambert * 8.0 / (n + 8.0);
         let error = (highlight / (-e).exp() - 1.0).abs();
-        // As shade.glsl derives it.
+        // As derived in shade.glsl.
         let bound = 4.0 * U * (2.0 * e * n).sqrt() + e / 2f64.powi(18) + 64.0 * U;
         assert!(error <= bound, "exponent {n}, cosine {z}: off by {error:e}, above {bound:e}");
         worst[row] = worst[row].max(error);
@@ -97,13 +97,14 @@ fn eye_and_light_on_opposite_sides_have_a_finite_middle() {
     assert!(red.is_finite() && least > 0.0, "{red} of a vector whose square is {least}");
 }
 
-/// Macros that make `sin` and `cos` tell `widest` of their angles.
+/// Macros that make `sin` and `cos` record the largest of their angles in `widest`.
 const NOTING_ANGLES: &str = "float widest = 0.0;\n\
                              float noted(float angle) { widest = max(widest, abs(angle)); return angle; }\n\
                              #define cos(angle) cos(noted(angle))\n\
                              #define sin(angle) sin(noted(angle))\n";
 
-/// Holds that angles come near π and are never beyond; `picture` has the widest of each pixel in red.
+/// Checks that angles come close to π and never exceed it; the red channel of `picture` is the largest in
+/// each pixel.
 fn reaches_pi_at_most(picture: &Picture) {
     let widest = picture.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
     println!("widest angle: {widest}");
@@ -112,7 +113,7 @@ fn reaches_pi_at_most(picture: &Picture) {
 
 #[test]
 fn no_angle_is_beyond_pi() {
-    // Beyond, Vulkan promises nothing of sin() and cos(). The shaders that call them are tried below.
+    // Beyond it, Vulkan promises nothing about sin() and cos(). The shaders that call them are tested below.
     let known = [
         "14_animation/flag.comp",
         "common/aperture.glsl",
@@ -127,7 +128,7 @@ fn no_angle_is_beyond_pi() {
         assert_eq!(callers(function), [""; 0]);
     }
     let noting = format!("{NOTING_ANGLES}#include \"common/disk.glsl\"\n");
-    // All starts that end a turn, and some between; of 64 points, every one.
+    // All starts that complete a turn, and some between; for 64 points, every one.
     let body = "float start = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
                 vec2 point = disk_point(at.x, 64, vec2(0.5, start));\n\
                 answer = vec4(widest, point, 0.0);";
@@ -158,7 +159,7 @@ fn no_aim_at_a_sphere_has_an_angle_beyond_pi() {
         "{NOTING_ANGLES}#include \"common/emitter.glsl\"\n\
          #include \"common/sphere_light.glsl\"\n"
     );
-    // The numbers that end a turn, and some between, from outside and from inside.
+    // The numbers that complete a turn, and some between, from outside and from inside.
     let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
                 Emitter ball;\n\
                 ball.corner = vec3(0.0, 0.0, at.x < 32 ? 5.0 : 0.5);\n\
@@ -173,14 +174,14 @@ fn no_aim_at_a_sphere_has_an_angle_beyond_pi() {
 
 #[test]
 fn no_direction_by_chance_has_an_angle_beyond_pi() {
-    // Materials do not matter here; the files that are included later declare them.
+    // Materials do not matter here; they are declared by files included later.
     let noting = format!(
         "{NOTING_ANGLES}struct Other {{ uint illumination; vec3 specular; }};\n\
          #define MaterialRecord Other\n\
          #include \"common/surface.glsl\"\n\
          #undef MaterialRecord\n"
     );
-    // The numbers that end a turn, and some between.
+    // The numbers that complete a turn, and some between.
     let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
                 vec3 way = cosine_direction(vec2(float(at.x) / 64.0, u), vec3(0.0, 0.0, 1.0));\n\
                 answer = vec4(widest, way);";
@@ -191,7 +192,7 @@ fn no_direction_by_chance_has_an_angle_beyond_pi() {
 
 #[test]
 fn no_wave_of_the_flag_has_an_angle_beyond_pi() {
-    // Its shader is one function. Half a turn there is the widest angle of a wave, in 32 bits.
+    // Its shader is one function. Half a turn there is the largest angle of a wave, in 32 bits.
     let text = std::fs::read_to_string(run::root().join("shaders/14_animation/flag.comp")).unwrap();
     let (_, rest) = text.split_once("const float TURN = ").expect("the flag knows a turn");
     let turn: f32 = rest.split(';').next().and_then(|number| number.parse().ok()).unwrap();
@@ -234,7 +235,7 @@ fn error_free_sums_demand_rounding_to_nearest() {
         "30_own_tree",
         "43_filtered_checker",
     ] {
-        // A copy that does not compile once the mode is demanded.
+        // A copy that does not compile with the mode enabled.
         let shaders = run::copy_of_shaders();
         let file = shaders.path().join("common/error_free.glsl");
         let text = fs::read_to_string(&file).expect("a shader");
@@ -252,7 +253,7 @@ fn error_free_sums_demand_rounding_to_nearest() {
             "{name}: {errors}"
         );
     }
-    // And the compiler has put it into the module: OpExecutionMode, RoundingModeRTE, 32 bits.
+    // And the compiler has added it to the module: OpExecutionMode, RoundingModeRTE, 32 bits.
     let define = [("ROUNDING_MODE_RTE", "1".to_owned())];
     let stages =
         ["12_infinite_plane/camera.rgen", "22_solids/solid.rint", "25_scene_effects/camera.rgen"];

@@ -1,4 +1,4 @@
-//! A browser with one page open, whichever it is: Chromium, or Firefox where the tests run again in that.
+//! A browser with one page open: Chromium, or Firefox if the tests run again in that.
 
 use serde_json::Value;
 
@@ -7,24 +7,24 @@ use crate::chromium::Chromium;
 use crate::firefox::{Firefox, Tab};
 use crate::talk::Talk;
 
-/// Differences between the browsers' protocols.
+/// The part of a browser that depends on its protocol.
 pub trait Engine {
     fn talk(&mut self) -> &mut Talk;
-    /// Calls a method of the browser's protocol for the page, and gives its result.
+    /// Calls a method of the browser's protocol for the page, and returns its result.
     fn call(&mut self, method: &str, parameters: Value) -> Value;
-    /// Begins to open an address.
+    /// Starts loading an address.
     fn open(&mut self, address: &str);
-    /// The event that a page is loaded.
+    /// The name of the event for a loaded page.
     fn loaded(&self) -> &'static str;
     fn run(&mut self, script: &str) -> Value;
     fn size(&mut self, width: u32, height: u32, phone: bool);
     fn press(&mut self, key: &str, code: u32);
     fn drag(&mut self, way: &[[f64; 2]], by: Pointer);
-    /// The page as base64 of a PNG: a part of it, or what is in view.
+    /// A screenshot as base64 of a PNG: a part of the page, or the visible area.
     fn shot(&mut self, part: Option<Value>) -> String;
 }
 
-/// The pointer that drags.
+/// The dragging pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pointer {
     Mouse,
@@ -45,7 +45,7 @@ impl Browser {
         Self::with(&["--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
     }
 
-    /// Starts it as where there is no GPU that it would use.
+    /// Starts it as on a machine without a usable GPU.
     pub fn without_webgl() -> Self {
         if std::env::var_os(FIREFOX).is_some() {
             return Self(Box::new(Tab::alone(Firefox::without_webgl())));
@@ -53,7 +53,7 @@ impl Browser {
         Self::with(&["--disable-gpu", "--disable-3d-apis"])
     }
 
-    /// Starts it with WebGL 2 by the system's OpenGL: without a GPU that is Mesa's llvmpipe.
+    /// Starts it with WebGL 2 on the system's OpenGL, which without a GPU is Mesa's llvmpipe.
     pub fn with_opengl() -> Self {
         Self::with(&["--use-angle=gl-egl", "--ignore-gpu-blocklist", "--enable-gpu"])
     }
@@ -65,19 +65,20 @@ impl Browser {
         }
     }
 
-    /// Calls a method of Chromium's protocol, and gives its result.
+    /// Calls a method of Chromium's protocol, and returns its result.
     pub fn call(&mut self, method: &str, parameters: &Value) -> Value {
         self.0.call(method, parameters.clone())
     }
 
-    /// Opens an address, waits until it is loaded, and gives everything that was told meanwhile.
+    /// Opens an address, waits until it is loaded, and returns all messages meanwhile.
     pub fn open(&mut self, address: &str) -> Vec<Value> {
         self.told();
         self.0.open(address);
         self.loaded(address)
     }
 
-    /// Runs what leads to another page, such as a click on a link, and waits for that; what was told meanwhile.
+    /// Runs a script that leads to another page, such as a click on a link, waits for that, and returns all
+    /// messages meanwhile.
     pub fn follow(&mut self, script: &str) -> Vec<Value> {
         self.told();
         self.run(script);
@@ -87,37 +88,37 @@ impl Browser {
     fn loaded(&mut self, doing: &str) -> Vec<Value> {
         let loaded = self.0.loaded();
         self.0.talk().wait(loaded, doing);
-        // What the page's own scripts do last.
+        // The last thing the page's own scripts do.
         self.run("new Promise(done => requestAnimationFrame(() => setTimeout(done)))");
         self.told()
     }
 
-    /// Messages since the last call.
+    /// The messages since the last call.
     pub fn told(&mut self) -> Vec<Value> {
         self.0.talk().told()
     }
 
-    /// The value of an expression on the page; of a promise, what it becomes.
+    /// The value of an expression on the page; for a promise, its result.
     pub fn run(&mut self, script: &str) -> Value {
         self.0.run(script)
     }
 
-    /// Gives the page a size in CSS pixels.
+    /// Sets the page's size in CSS pixels.
     pub fn size(&mut self, width: u32, height: u32, phone: bool) {
         self.0.size(width, height, phone);
     }
 
-    /// Presses a key and lets it go, such as `Tab` or `ArrowRight`.
+    /// Presses and releases a key, such as `Tab` or `ArrowRight`.
     pub fn press(&mut self, key: &str, code: u32) {
         self.0.press(key, code);
     }
 
-    /// Puts a pointer on a place in view, and moves it from there to others, the last of which is where it leaves.
+    /// Presses a pointer at a visible place, and moves it from there to others; it is released at the last.
     pub fn drag(&mut self, way: &[[f64; 2]], by: Pointer) {
         self.0.drag(way, by);
     }
 
-    /// An element of the page as it is seen, as base64 of a PNG.
+    /// A screenshot of an element of the page, as base64 of a PNG.
     pub fn part(&mut self, element: &str) -> String {
         let clip = self.run(&format!(
             "(box => ({{ x: box.x + scrollX, y: box.y + scrollY, width: box.width, height: box.height }}))\
@@ -126,7 +127,7 @@ impl Browser {
         self.0.shot(Some(clip))
     }
 
-    /// The page as it is seen, as base64 of a PNG.
+    /// A screenshot of the page, as base64 of a PNG.
     pub fn picture(&mut self) -> String {
         self.0.shot(None)
     }

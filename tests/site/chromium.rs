@@ -1,4 +1,4 @@
-//! Chromium without a window, asked through two pipes in the DevTools protocol.
+//! Chromium without a window, controlled through two pipes in the DevTools protocol.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 use crate::browser::{Engine, Pointer};
 use crate::talk::{Talk, Wire};
 
-/// Possible names of the program.
+/// The possible names of the program.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// The first of these programs that runs.
+/// The first of these programs that can be run.
 pub fn found(names: &[&'static str]) -> Option<&'static str> {
     names.iter().copied().find(|name| {
         let probe = Command::new(name).arg("--version").stderr(Stdio::null()).output();
@@ -30,7 +30,7 @@ pub struct Chromium {
     _profile: tempfile::TempDir,
 }
 
-/// Messages between zeros.
+/// Messages separated by zero bytes.
 struct Pipes {
     asked: ChildStdin,
     told: Receiver<Value>,
@@ -53,12 +53,12 @@ impl Chromium {
         let name = found(&NAMES)
             .expect("no Chromium on the PATH: run ./setup --tests, or install Google Chrome");
         let profile = tempfile::tempdir().expect("a temporary folder");
-        // It reads from 3 and writes to 4.
+        // It reads from descriptor 3 and writes to 4.
         let mut child = Command::new("sh")
             .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>&1", "sh", name])
             .args(["--headless", "--remote-debugging-pipe", "--no-first-run"])
             .args(graphics)
-            // Root has no sandbox, and the pages are our own.
+            // Root cannot use the sandbox, and the pages are our own.
             .args(["--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars"])
             .args(["--disable-background-networking", "--disable-component-update"])
             .arg(format!("--user-data-dir={}", profile.path().display()))

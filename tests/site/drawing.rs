@@ -1,4 +1,5 @@
-//! The drawings by light and by dark, in Chromium: what they say stands out from what lies behind it.
+//! The drawings in the light and the dark scheme, in Chromium: text and lines have enough contrast with their
+//! background.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,13 +18,13 @@ pub fn prefers(browser: &mut Browser, scheme: &str) {
     browser.call("Emulation.setEmulatedMedia", &json!({ "features": features }));
 }
 
-/// A colour as the browser tells it.
+/// A colour in the browser's notation.
 fn told(color: &str) -> String {
     let part = |at: usize| u8::from_str_radix(&color[at..at + 2], 16).unwrap();
     format!("rgb({}, {}, {})", part(1), part(3), part(5))
 }
 
-/// Texts and lines that do not stand out, and the number that were looked at.
+/// The texts and lines without enough contrast, and the number of those checked.
 fn looked_at(browser: &mut Browser, file: &Path, scheme: &str) -> (Vec<String>, u64) {
     prefers(browser, scheme);
     browser.open(&format!("file://{}", file.display()));
@@ -85,7 +86,7 @@ fn dark_ink_that_stays_on_dark_paper_is_found() {
     assert!(wrong[1].starts_with("a.svg, dark: a line in rgb(91, 107, 120)"), "{wrong:?}");
 }
 
-/// Lightness of the page's first drawing, from 0 to 1.
+/// The lightness of the page's first drawing, from 0 to 1.
 fn lightness(browser: &mut Browser) -> f64 {
     browser.run(
         "(async () => {

@@ -1,4 +1,4 @@
-//! Faults of a page: each is reported in a line with its place, and then there is no site.
+//! Faults of a page: each is reported in one line with its place, and no site is written.
 
 use std::fs;
 use std::path::Path;
@@ -34,7 +34,7 @@ pub fn book(page: &str) -> TempDir {
     folder
 }
 
-/// The names of what lies in a folder.
+/// The names of the files in a folder.
 fn names(folder: &Path) -> Vec<String> {
     let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name());
     files.map(|name| name.to_string_lossy().into_owned()).collect()
@@ -61,7 +61,7 @@ fn a_page_without_fault_is_built() {
     let html = built(book(page).path()).unwrap();
     assert!(html.contains("two.html#a-place") && html.contains("<msup>"), "{html}");
     assert!(html.contains("one-code.html#samples-x-rs.a"), "{html}");
-    // No comment is left, nor the blank line of one, which would make the list loose.
+    // Neither the comment nor its blank line is left, which would make the list loose.
     assert!(!html.contains("explains") && html.contains("<li>an item</li>"), "{html}");
     assert!(html.contains("<span class=\"hljs-keyword\">fn</span>"), "{html}");
 }
@@ -97,7 +97,7 @@ fn every_fault_is_named_with_its_line() {
         let error = built(book(&format!("# One\n\n{fault}\n")).path());
         let error = error.expect_err(fault);
         let lines: Vec<&str> = error.lines().collect();
-        // Such a fault is the picture's, one line below the mark.
+        // Such a fault belongs to the picture, one line below the mark.
         let below = ["the slider takes", "there is no figure"];
         let place = if below.iter().any(|what| expected.contains(what)) { 4 } else { 3 };
         let expected = format!("docs/one.md:{place}: {expected}");
@@ -152,7 +152,7 @@ fn a_signal_leaves_a_site_or_none() {
     let (mut stopped, mut made) = (0, 0);
     for round in 0..8 {
         let out = folder.path().join(format!("site{round}"));
-        // `nohup`, under which tests may run, has a signal ignored.
+        // `nohup`, under which tests may run, ignores a signal.
         let mut command = Command::new("env");
         command.arg("--default-signal=INT,TERM,HUP").arg(env!("CARGO_BIN_EXE_site"));
         command.arg("--root").arg(folder.path()).arg("--out").arg(&out);
@@ -168,7 +168,7 @@ fn a_signal_leaves_a_site_or_none() {
         } else {
             stopped += 1;
         }
-        // Its mark is the last file of a site.
+        // Its mark is the last file of a site to be written.
         let is_whole = out.join(".made-by-cargo-chapters-book").exists();
         assert!(is_whole || !(out.exists() || status.success()), "{status}");
         assert!(!begun(), "{status}: {:?}", names(folder.path()));

@@ -1,7 +1,7 @@
-//! Firefox, asked through a socket in the protocol WebDriver BiDi.
+//! Firefox, controlled through a socket in the protocol WebDriver BiDi.
 //!
-//! Without a window it has no WebGL 2, so it draws to an X server without a screen, by llvmpipe. It starts once: the
-//! tests that Chromium has passed run again in a process of their own, where each of them has a tab of it.
+//! Without a window it has no WebGL 2, so it draws to an X server without a screen, with llvmpipe. It starts
+//! once: the tests that have passed in Chromium run again in a separate process, each in a tab of it.
 
 use std::env;
 use std::fs;
@@ -23,16 +23,16 @@ use crate::chromium::found;
 use crate::talk::{PATIENCE, Talk, Wire};
 use crate::{FIREFOX, xvfb};
 
-/// Possible names of the program.
+/// The possible names of the program.
 const NAMES: [&str; 2] = ["firefox-esr", "firefox"];
-/// Frames come as fast as they are drawn, not sixty in a second.
+/// Frames are drawn as fast as possible instead of sixty per second.
 const PREFERENCES: &str = "user_pref(\"layout.frame_rate\", 0);\n";
 
-/// Firefox, and the X server that it draws to; both end with it.
+/// Firefox and its X server; both are ended on drop.
 pub struct Firefox {
     child: Child,
     server: Option<Child>,
-    /// Address and port on which it listens.
+    /// The address and port on which it listens.
     host: String,
     _profile: TempDir,
 }
@@ -61,16 +61,16 @@ impl Firefox {
         command.args(["--no-remote", "--remote-debugging-port", "0", "--profile"]);
         command.arg(profile.path());
         command.env("LIBGL_ALWAYS_SOFTWARE", "1").env_remove("WAYLAND_DISPLAY");
-        // Root must not use another's home, as it has in a container.
+        // Root must not use another user's home, as set in a container.
         command.env("HOME", profile.path());
         graphics(&mut command);
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("Firefox starts");
         let lines = BufReader::new(child.stderr.take().expect("piped")).lines();
         let (tell, told) = channel();
-        // Read to the end, so that it can go on writing.
+        // Read to the end, so that it can continue writing.
         thread::spawn(move || lines.map_while(Result::ok).for_each(|line| drop(tell.send(line))));
-        // From here on it ends with this.
+        // From here on, it is ended on drop.
         let mut firefox = Self { child, server, host: String::new(), _profile: profile };
         let mut said = Vec::new();
         while firefox.host.is_empty() {
@@ -84,7 +84,7 @@ impl Firefox {
         firefox
     }
 
-    /// Runs tests of this program again, in it. What they say, and whether all of them have passed.
+    /// Runs tests of this program again, in it. Returns their output, and whether all have passed.
     pub fn again(&self, arguments: &[&str], environment: &[(&str, &Path)]) -> (String, bool) {
         let output = Command::new(env::current_exe().expect("this program"))
             .args(arguments)
@@ -107,7 +107,7 @@ impl Drop for Firefox {
     }
 }
 
-/// A tab of Firefox, with nothing in it that others have left.
+/// A tab of Firefox, without data from other tabs.
 pub struct Tab {
     talk: Talk,
     user: Value,
@@ -116,12 +116,12 @@ pub struct Tab {
 }
 
 impl Tab {
-    /// One of the Firefox that these tests run in, if they do.
+    /// A tab of the Firefox in which these tests run, if there is one.
     pub fn asked() -> Option<Self> {
         Some(Self::of(&env::var(FIREFOX).ok()?, None))
     }
 
-    /// The only one of a Firefox, which ends with it.
+    /// The only tab of a Firefox, which is ended with it.
     pub fn alone(firefox: Firefox) -> Self {
         Self::of(&firefox.host.clone(), Some(firefox))
     }
@@ -129,7 +129,7 @@ impl Tab {
     fn of(host: &str, firefox: Option<Firefox>) -> Self {
         let talk = Talk::over(Socket::open(host));
         let mut tab = Self { talk, user: Value::Null, context: Value::Null, _firefox: firefox };
-        // One at a time.
+        // Only one session at a time is allowed.
         tab.call("session.new", json!({ "capabilities": {} }));
         let events = [
             "browsingContext.load",
@@ -138,7 +138,7 @@ impl Tab {
             "network.fetchError",
         ];
         tab.call("session.subscribe", json!({ "events": events }));
-        // A user of its own has not yet chosen a theme.
+        // A new user has not yet chosen a theme.
         tab.user = tab.call("browser.createUserContext", json!({}))["userContext"].take();
         let open = json!({ "type": "tab", "userContext": tab.user });
         tab.context = tab.call("browsingContext.create", open)["context"].take();
@@ -165,7 +165,8 @@ impl Engine for Tab {
     }
 
     fn run(&mut self, script: &str) -> Value {
-        // Its own form of values has no place for what a figure finds: that comes as text.
+        // The protocol's own encoding of values cannot represent all results of a figure, so they are sent as
+        // text.
         let text = json!(script);
         let expression = format!("(async () => JSON.stringify(await (0, eval)({text})))()");
         let target = json!({ "context": self.context });
@@ -247,7 +248,7 @@ impl Socket {
         );
         stream.write_all(ask.as_bytes()).expect("Firefox listens");
         let mut head = Vec::new();
-        // What comes after it is not ours.
+        // The rest does not belong to the header.
         while !head.ends_with(b"\r\n\r\n") {
             let mut byte = [0];
             stream.read_exact(&mut byte).expect("Firefox answers");

@@ -1,6 +1,6 @@
-//! Figures in Chromium and in Firefox with WebGL 2: what they compute, and how they answer.
+//! Figures in Chromium and in Firefox with WebGL 2: their results, and their controls.
 //!
-//! `UPDATE=1 cargo test -p site figures::stills -- --ignored` writes the pictures that stand where no script runs.
+//! `UPDATE=1 cargo test -p site figures::stills -- --ignored` writes the pictures shown without scripts.
 
 mod r#box;
 mod candidates;
@@ -45,7 +45,7 @@ fn all() -> Vec<(&'static str, &'static str)> {
     pages().flat_map(|(page, names)| names.into_iter().map(move |name| (page, name))).collect()
 }
 
-/// A promise of whether an expression becomes true on the page, within so many frames.
+/// A promise of whether an expression becomes true on the page, within this many frames.
 fn waiting(until: &str) -> String {
     format!(
         "new Promise(done => {{
@@ -61,7 +61,8 @@ fn wait(browser: &mut Browser, until: &str) {
     assert_eq!(browser.run(&waiting(until)), true, "never: {until}");
 }
 
-/// Opens a page and brings a figure into view, until it is drawn. From then on it is the page's variable `figure`.
+/// Opens a page and scrolls a figure into view, until it is drawn. From then on it is the page's variable
+/// `figure`.
 pub fn shown(browser: &mut Browser, address: &str, name: &str) -> Vec<Value> {
     browser.open("about:blank");
     let told = browser.open(address);
@@ -76,13 +77,13 @@ fn chosen(browser: &mut Browser, name: &str) {
     browser.run(&format!("window.figure = figures.all.find(({{ name }}) => name === {name:?})"));
 }
 
-/// A picture of an element of the page, without the bar that would stand before it.
+/// A screenshot of an element of the page, without the bar that would cover it.
 fn taken(browser: &mut Browser, element: &str, file: &Path) {
     browser.run("document.getElementById('mdbook-menu-bar').hidden = true");
     decode(&browser.part(element), file);
 }
 
-/// Sets controls as a reader would, and gives what the figure finds.
+/// Sets controls like a reader, and returns the figure's results.
 pub fn found(browser: &mut Browser, controls: &[(&str, &str)], what: &str) -> Value {
     let (controls, drawn) = (json!(controls), waiting("figure.found"));
     browser.run(&format!(
@@ -140,7 +141,7 @@ fn every_figure_starts_can_be_read_and_answers_the_keyboard_alone() {
             answered += 1;
         }
         assert!(browser.run("location.pathname").as_str().unwrap().ends_with(page));
-        // Whoever wants less motion has none.
+        // There is no animation for readers who prefer less motion.
         assert_eq!(browser.run("figure.box.getAnimations({ subtree: true }).length"), 0, "{page}");
         faults.extend(complaints(&browser.told()));
         assert!(faults.is_empty(), "{page}:\n{}", faults.join("\n"));
@@ -170,7 +171,7 @@ fn points_can_be_dragged() {
         .map(box => [box.x + box.width / 2, box.y + box.height / 2, box.width])";
     let mut browser = Browser::with_webgl();
     sized(&mut browser, PHONE);
-    // Each figure, and how many of its points go wherever they are dragged to.
+    // Each figure, and the number of its points that can be dragged anywhere.
     for (page, name, count) in [
         (candidates::PAGE, "candidates", 1),
         (glass::PAGE, "glass", 2),
@@ -184,8 +185,8 @@ fn points_can_be_dragged() {
     ] {
         shown(&mut browser, &address(page), name);
         for index in 0..count {
-            // The second way back, so that both have room. The page stands at a whole pixel: one that
-            // Firefox has scrolled to between two of them may go to the other a moment later.
+            // The second drag goes back, so that both have room. The page is at a whole pixel: if Firefox has
+            // scrolled to a position between two pixels, it may move a moment later.
             for (by, way) in [(Pointer::Mouse, -40.0), (Pointer::Finger, 30.0)] {
                 browser.run(&format!(
                     "var box = figure.stage.querySelectorAll('.grip')[{index}].getBoundingClientRect();
@@ -207,7 +208,7 @@ fn points_can_be_dragged() {
     }
 }
 
-// Without it the test above would say nothing of fingers. Firefox's do not move a page.
+// Otherwise the test above would prove nothing about fingers. Firefox's do not scroll a page.
 #[test]
 #[ignore = "nightly only: in a browser"]
 fn beside_a_point_a_finger_moves_the_page() {
@@ -219,7 +220,7 @@ fn beside_a_point_a_finger_moves_the_page() {
     wait(&mut browser, &format!("scrollY > {top} + 50"));
 }
 
-/// A book with the figure of the sphere alone, whose `sphere.glsl` has other words in a place.
+/// A book with only the figure of the sphere, with some text in `sphere.glsl` replaced.
 fn other(from: &str, to: &str) -> (tempfile::TempDir, Result<String, String>) {
     let mark = "<!-- touch sphere: rung = textbook; distance = 1e4 -->";
     let folder = faults::book(&format!("# One\n\n{mark}\n![A](images/a.svg)\n"));
@@ -287,7 +288,7 @@ fn a_figure_out_of_view_costs_nothing() {
     browser.open(&address(sphere::PAGE));
     chosen(&mut browser, "sphere");
     let draws = "figure.found";
-    // A figure in view would be drawn in the next frame.
+    // A visible figure would be drawn in the next frame.
     let change = "figure.change(); new Promise(done => \
                   requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))";
     browser.run(change);
@@ -329,7 +330,7 @@ fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
     assert_eq!(complaints(&browser.told()), Vec::<String>::new());
 }
 
-// Each figure is drawn and answers; one runs its shader, and points follow mouse and finger.
+// Each figure is drawn and responds; one runs its shader, and points follow mouse and finger.
 #[test]
 #[ignore = "nightly only: in a browser"]
 fn figures_start_compute_and_are_dragged_in_firefox_too() {
@@ -345,7 +346,7 @@ fn figures_start_compute_and_are_dragged_in_firefox_too() {
 #[test]
 #[ignore = "nightly only: a minute"]
 fn what_these_tests_find_in_chromium_holds_in_firefox() {
-    // Those which ask what the book's build has made, for a finger that moves the page, or are run by hand.
+    // Skipped: tests of the book's build, the one in which a finger scrolls the page, and those run by hand.
     let skipped =
         ["firefox", "a_line_that", "a_changed_line", "beside_a_point", "stills", "pictures"];
     let mut arguments =
@@ -354,7 +355,7 @@ fn what_these_tests_find_in_chromium_holds_in_firefox() {
     in_firefox(&arguments);
 }
 
-/// Runs tests of this program again, in Firefox.
+/// Runs tests of this program again in Firefox.
 fn in_firefox(arguments: &[&str]) {
     built();
     let (said, passed) = Firefox::start().again(arguments, &[]);
@@ -385,7 +386,7 @@ fn stills() {
         shown(&mut browser, &address(page), name);
         let still = browser.run("figure.box.querySelector('.still img').getAttribute('src')");
         let still = still.as_str().unwrap().to_owned();
-        // Others are drawings.
+        // The other pictures are drawings.
         if still.ends_with("_figure.png") {
             taken(&mut browser, "figure.stage", &root().join("docs").join(still));
         }

@@ -1,4 +1,4 @@
-//! The page of a server for missing pages: the way back is found from any depth, wherever the site lies.
+//! A server's page for missing pages: it finds the way back from any depth, wherever the site is served.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -10,7 +10,7 @@ use crate::built;
 use crate::drawing::{SCHEMES, prefers};
 use crate::reading::checked;
 
-/// Serves the site below `/name/`, as a code host does, and its page for what is not there with 404.
+/// Serves the site below `/name/`, like a code host, and its page for missing files with status 404.
 fn served() -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = listener.local_addr().unwrap().port();
@@ -43,7 +43,7 @@ fn answer(mut stream: TcpStream) {
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
         body.len()
     );
-    // The browser may have gone on.
+    // The browser may have closed the connection.
     let _ = stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&body));
 }
 
@@ -84,6 +84,6 @@ fn the_page_for_no_page_takes_nothing_from_another_file() {
     for other in ["src=", "<link", "@import", "url("] {
         assert!(!text.contains(other), "{other}");
     }
-    // Without a script it says where to go.
+    // Without a script, it says where to go.
     assert!(text.contains("<p id=\"lost\">"));
 }

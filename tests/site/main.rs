@@ -1,6 +1,6 @@
-//! The website of the book: built whole, then read as text and in a browser without a window.
+//! The book's website: built completely, then checked as text and in a browser without a window.
 //!
-//! `SHOTS=FOLDER cargo test --test site pictures -- --ignored` writes pictures of three pages to look at.
+//! `SHOTS=FOLDER cargo test --test site pictures -- --ignored` writes screenshots of three pages.
 
 #[cfg(unix)]
 mod browser;
@@ -42,17 +42,17 @@ struct Built {
     pages: BTreeMap<String, (String, Vec<Attribute>)>,
 }
 
-/// The variable that says where Firefox listens, for tests that run again in that.
+/// The variable with the address of Firefox, for tests that run again in it.
 const FIREFOX: &str = "SITE_FIREFOX";
 
-/// The site of this project, built once for all tests, and left to be looked at.
+/// The site of this project, built once for all tests, and kept for inspection.
 fn built() -> &'static Built {
     static BUILT: OnceLock<Built> = OnceLock::new();
     BUILT.get_or_init(|| {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        // As a code host serves it: below a name.
+        // As on a code host: below a name.
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("site/a book");
-        // What runs again reads what is built already.
+        // A repeated run uses the existing site.
         let counts = match std::env::var_os(FIREFOX) {
             Some(_) => Counts::default(),
             None => site::output::replace(&folder, |made| site::build(&root, made))
@@ -63,12 +63,12 @@ fn built() -> &'static Built {
             let name = file.unwrap().file_name().into_string().unwrap();
             if name.ends_with(".html") {
                 let text = fs::read_to_string(folder.join(&name)).unwrap();
-                // A page that has moved as a whole: its old address only leads on.
+                // A page that has moved as a whole: its old address only redirects.
                 if text.contains("<title>Redirecting...</title>") {
                     continue;
                 }
                 let mut found = attributes(&text);
-                // Of the spans of code there are a hundred thousand.
+                // There are a hundred thousand spans of code.
                 found.retain(|attribute| !["class", "data-n"].contains(&&*attribute.name));
                 pages.insert(name, (text, found));
             }
@@ -77,8 +77,8 @@ fn built() -> &'static Built {
     })
 }
 
-/// The addresses of the pages that are read: not what is shown in a frame where there is no script, nor
-/// where there is no page.
+/// The addresses of the pages to check: neither those shown in a frame without scripts, nor the one for
+/// missing pages.
 fn addresses() -> impl Iterator<Item = &'static String> {
     built().pages.keys().filter(|name| !["toc.html", "404.html"].contains(&&***name))
 }

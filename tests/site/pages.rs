@@ -1,4 +1,4 @@
-//! The site as text: nothing leads nowhere, nothing comes from elsewhere.
+//! The site as text: no broken links, and nothing loaded from elsewhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -54,7 +54,7 @@ fn nothing_comes_from_elsewhere() {
             loads && attribute.value.contains("//")
         });
         assert_eq!(elsewhere, None, "{page}");
-        // The one thing for which mdBook's script would ask a server.
+        // The only thing for which mdBook's script would contact a server.
         assert!(!text.contains("class=\"playground"), "{page} has code that runs on a server");
     }
     let mut styles = Vec::new();
@@ -73,7 +73,7 @@ fn nothing_comes_from_elsewhere() {
 
 #[test]
 fn every_page_says_what_it_is() {
-    // mdBook has read its settings: without them it makes these.
+    // mdBook has read its settings: otherwise it would make this page.
     assert!(!built().pages.contains_key("print.html"));
     let mut titles = BTreeSet::new();
     for page in addresses() {
@@ -81,7 +81,7 @@ fn every_page_says_what_it_is() {
         let title = text.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>"));
         let title = title.map_or("", |(title, _)| title.trim());
         assert!(title.len() > " - Ray Tracing in Vulkan".len(), "{page}: '{title}'");
-        // mdBook calls the first page after its entry, and index.html is that page.
+        // mdBook names the first page after its entry, and index.html is the same page.
         assert!(titles.insert(title), "{page} is called '{title}', as another page is");
         let language = attributes.iter().find(|a| a.tag == "html" && a.name == "lang");
         assert_eq!(language.map(|a| &*a.value), Some("en"), "{page}");
@@ -96,7 +96,7 @@ fn every_formula_is_drawn_by_the_browser_itself() {
     assert_eq!(drawn, built().counts.formulas);
     assert!(drawn > 400, "{drawn} formulas");
     for (page, (text, _)) in &built().pages {
-        // Code may have what it likes.
+        // Code may contain anything.
         let mut pieces = text.split("<code").map(|piece| piece.rsplit("</code>").next().unwrap());
         let tex = |piece: &str| {
             ["<merror", "$$", "\\frac", "\\cdot"].iter().any(|tex| piece.contains(tex))
@@ -148,7 +148,7 @@ fn the_pages_follow_each_other_by_part() {
     let page = |name: &str| &built().pages[name].0;
     let last = page("44_geometries.html");
     assert!(last.contains("<p class=\"part\">I · Make it</p>"));
-    // From the last chapter of a part to the first of the next, which is named.
+    // From the last chapter of a part to the first of the next, whose name is shown.
     let next = "<a class=\"next\" href=\"08_intersection.html\"><small>Next</small><small>II · Shapes</small>";
     assert!(last.contains(next), "{last}");
     assert!(last.contains("<a class=\"previous\" href=\"41_ray_offset.html\">"));
@@ -160,7 +160,7 @@ fn the_pages_follow_each_other_by_part() {
         let Some((_, next)) = next else { break };
         at = next.split_once('"').unwrap().0.to_owned();
     }
-    // The pages of measurements lie beside the way: a chapter leads to its own.
+    // The pages of measurements are outside the reading order: each chapter links to its own.
     let beside = built().pages.keys().filter(|name| name.starts_with("measurements-")).count();
     assert!(beside > 10 && read.iter().all(|name| !name.starts_with("measurements-")));
     assert_eq!(read.len() + beside, built().counts.pages, "{read:?}");
@@ -176,7 +176,7 @@ fn every_chapter_s_code_is_shown_whole_with_what_it_replaces() {
         let (_, section) =
             text.split_once(&format!("samples-{}-main-rs\" class=\"file\"", chapter.name)).unwrap();
         let section = section.split_once("</details>").unwrap().0;
-        // No number is left out and none comes twice, marks among them. The older side has its own.
+        // Every number occurs exactly once, including marks. The older side has its own.
         let new = section.split("<div class=\"").filter(|block| block.starts_with("new\""));
         let numbers: Vec<usize> = new
             .flat_map(|block| block.split("data-n=\"").skip(1))

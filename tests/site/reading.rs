@@ -1,4 +1,5 @@
-//! The site in Chromium, as it is read: on a desk and on a phone, by light and by dark, with the keyboard.
+//! The site in Chromium, from a reader's view: on a desktop and on a phone, in the light and the dark scheme,
+//! with the keyboard.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -11,7 +12,7 @@ use crate::{addresses, built};
 const CHECKS: &str = include_str!("checks.js");
 pub const DESK: (u32, u32, bool) = (1280, 900, false);
 pub const PHONE: (u32, u32, bool) = (390, 844, true);
-/// Suffix of pages of code.
+/// The suffix of pages of code.
 const CODE: &str = "-code.html";
 
 pub fn address(page: &str) -> String {
@@ -23,7 +24,7 @@ pub fn sized(browser: &mut Browser, (width, height, phone): (u32, u32, bool)) {
     browser.size(width, height, phone);
 }
 
-/// Faults while a page was open, and its requests to another machine.
+/// The faults while a page was open, and its requests to other hosts.
 pub fn complaints(told: &[Value]) -> Vec<String> {
     let mut found = Vec::new();
     for event in told {
@@ -55,7 +56,7 @@ pub fn complaints(told: &[Value]) -> Vec<String> {
 }
 
 pub fn theme(browser: &mut Browser, name: &str) {
-    // A stylesheet that was off is read again.
+    // A stylesheet that was disabled is loaded again.
     browser.run(&format!(
         "(async () => {{
             document.getElementById('mdbook-theme-{name}').click();
@@ -66,13 +67,13 @@ pub fn theme(browser: &mut Browser, name: &str) {
     ));
 }
 
-/// Results of the checks of a page.
+/// The results of the checks of a page.
 #[derive(Default)]
 pub struct Checked {
     pub wrong: Vec<String>,
-    /// Number of kinds of text that were seen.
+    /// The number of kinds of text found.
     kinds: u64,
-    /// Number of boxes that scroll sideways.
+    /// The number of boxes that scroll sideways.
     scrolling: u64,
 }
 
@@ -89,7 +90,7 @@ pub fn checked(browser: &mut Browser) -> Checked {
 fn every_page_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
     let (Checked { kinds, scrolling, .. }, asked) =
         read(addresses().filter(|page| !page.ends_with(CODE)));
-    // The checks have seen something.
+    // Make sure that the checks have found something.
     assert!(kinds > 3000 && asked > 500, "{kinds} kinds of text, {asked} requests");
     assert!(scrolling > 500, "{scrolling} boxes scroll");
 }
@@ -101,7 +102,7 @@ fn every_page_of_code_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
     assert!(kinds > 1600 && asked > 300, "{kinds} kinds of text, {asked} requests");
 }
 
-// All of them are made by the same words: one without a parent, one beside it, and that of the first page.
+// All of them have the same structure: one without a parent, one with a parent, and that of the first page.
 #[test]
 #[ignore = "nightly only: in a browser"]
 fn pages_of_code_are_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
@@ -110,10 +111,10 @@ fn pages_of_code_are_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
     assert!(kinds > 100, "{kinds} kinds of text");
 }
 
-/// Opens pages, looks for faults on a phone and on a desk, by light and by dark, and gives what was seen and
-/// how many requests were made.
+/// Opens pages, looks for faults on a phone and on a desktop, in both schemes, and returns the results and
+/// the number of requests.
 fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (Checked, usize) {
-    // A figure may be in view at once.
+    // A figure may be visible immediately.
     let mut browser = Browser::with_webgl();
     let (mut all, mut asked) = (Checked::default(), 0);
     for page in pages {
@@ -141,7 +142,7 @@ fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (Checked, usize) {
     (all, asked)
 }
 
-/// Pictures of the page that cannot be drawn.
+/// Pictures of the page that cannot be loaded.
 fn lost_pictures(browser: &mut Browser) -> Vec<String> {
     let lost = browser.run(
         "Promise.all([...document.images].map(async image => {
@@ -158,7 +159,7 @@ fn lost_pictures(browser: &mut Browser) -> Vec<String> {
 fn a_page_with_faults_is_not_called_quiet() {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html");
-    // Of the lowest ports Firefox asks nothing.
+    // Firefox refuses to connect to the lowest ports.
     let text = "<!DOCTYPE html><body style=\"background: #111\"><main>\
         <p style=\"color: #555\">grey on black</p><div style=\"width: 2000px\">a wide box</div>\
         <div style=\"overflow: auto; height: 9px\"><div style=\"width: 999px\">hidden words</div></div>\
@@ -215,7 +216,7 @@ fn a_slider_moves_by_the_arrow_keys() {
             assert!(label.as_str().unwrap().contains(", before: "), "{label}");
             sliders += 1;
         }
-        // The arrow belongs to the slider: the page is the same.
+        // The slider handles the arrow key: the page is the same.
         assert!(browser.run("location.pathname").as_str().unwrap().ends_with(page.as_str()));
     }
     assert_eq!(sliders, built().counts.sliders);
@@ -250,7 +251,7 @@ fn the_tab_key_reaches_everything_and_shows_where_it_is() {
     for wanted in wanted {
         assert!(reached.iter().any(|name| name == wanted), "{wanted} is not among {reached:?}");
     }
-    // The first stop jumps over all that is the same on every page.
+    // The first stop of the Tab key skips everything that is the same on every page.
     browser.run("document.querySelector('.skip').focus()");
     browser.press("Enter", 13);
     browser.press("Tab", 9);
@@ -289,7 +290,7 @@ fn what_scrolls_sideways_shows_it_and_is_moved_by_the_arrow_keys() {
     browser.run("box.scrollLeft = box.scrollWidth");
     browser.run(settled);
     assert_eq!(browser.run(arrows), serde_json::json!(["\"‹\"", "none"]));
-    // The keys were the box's: the page is the same.
+    // The box handled the keys: the page is the same.
     let page = browser.run("location.pathname");
     assert!(page.as_str().unwrap().ends_with("01_foundation.html"), "{page}");
 }
@@ -335,7 +336,7 @@ fn the_arrow_keys_turn_the_pages() {
     browser.run("document.activeElement.blur()");
     browser.press("ArrowRight", 39);
     let there = browser.run("new Promise(done => setTimeout(() => done(location.pathname), 1))");
-    // The old page may still be there to answer.
+    // The old page may still be there and answer.
     let there = if there.as_str().unwrap().ends_with("36_two_normals.html") {
         std::iter::repeat_with(|| browser.run("location.pathname"))
             .take(200)
@@ -375,7 +376,7 @@ fn pictures() {
                     theme(&mut browser, id);
                 }
                 for (part, at) in [("top", 0.0), ("middle", 0.45)] {
-                    // A page that is opened at a place stays there.
+                    // A page opened at an anchor stays there.
                     if part == "middle" || !page.contains(['#', '?']) {
                         let to =
                             format!("scrollTo(0, {at} * document.documentElement.scrollHeight)");
@@ -390,7 +391,7 @@ fn pictures() {
     }
 }
 
-/// Writes what base64 says into a file.
+/// Decodes base64 into a file.
 pub fn decode(text: &str, file: &std::path::Path) {
     use std::io::Write;
     let mut child = Command::new("base64")

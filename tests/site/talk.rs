@@ -1,17 +1,17 @@
-//! A talk with a browser in JSON: questions with numbers, the answers to them, and what it tells in between.
+//! A conversation with a browser in JSON: numbered requests, their responses, and messages in between.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-/// Time limit of an answer on a machine with much else to do.
+/// The time limit of a response, on a busy machine.
 pub const PATIENCE: Duration = time_limit::ASLEEP;
 
-/// The carrier of messages.
+/// The transport of messages.
 pub trait Wire {
     fn send(&mut self, message: &Value) -> Result<(), String>;
-    /// The next message, or why there is none.
+    /// The next message, or the reason why there is none.
     fn next(&mut self, patience: Duration) -> Result<Value, String>;
 }
 
@@ -26,13 +26,13 @@ impl Talk {
         Self { wire: Box::new(wire), last: 0, told: VecDeque::new() }
     }
 
-    /// Asks, and gives the result.
+    /// Sends a request, and returns the result.
     pub fn ask(&mut self, question: Value) -> Value {
         let method = question["method"].clone();
         self.try_to_ask(question).unwrap_or_else(|error| panic!("{method}: {error}"))
     }
 
-    /// The same where something may have failed already.
+    /// The same for requests that may fail.
     pub fn try_to_ask(&mut self, mut question: Value) -> Result<Value, String> {
         self.last += 1;
         question["id"] = json!(self.last);
@@ -48,7 +48,7 @@ impl Talk {
         }
     }
 
-    /// Waits for an event, unless it has been told already.
+    /// Waits for an event, unless it has been received already.
     pub fn wait(&mut self, event: &str, doing: &str) {
         let start = Instant::now();
         while !self.told.iter().any(|told| told["method"] == event) {
@@ -57,7 +57,7 @@ impl Talk {
         }
     }
 
-    /// Messages since the last time.
+    /// The messages since the last call.
     pub fn told(&mut self) -> Vec<Value> {
         self.told.drain(..).collect()
     }

@@ -1,6 +1,6 @@
-//! The page of the reader's own device, in Chromium with SwiftShader.
+//! The page that tests the reader's own device, in Chromium with SwiftShader.
 //!
-//! `UPDATE=1 cargo test -p site this_gpu::the_stored` writes the exact answers to the rays that the page makes.
+//! `UPDATE=1 cargo test -p site this_gpu::the_stored` writes the exact answers for the page's rays.
 
 use std::fs;
 use std::path::Path;
@@ -28,14 +28,14 @@ const RUNGS: [(&str, usize); 6] = [
     ("box division", 1),
     ("box two-float", 1),
 ];
-/// Kinds of rays for each solid, and how many of each.
+/// The kinds of rays for each solid, and the number of each.
 const KINDS: usize = 4;
 const MANY: usize = 64;
 
-/// Check of an operation's results, given its operands.
+/// A check of an operation's results, given its operands.
 type Right<'a> = &'a dyn Fn(&[f32; 3], &[f32]) -> bool;
 
-/// The figure's findings at an address, its lists as lists.
+/// The figure's results at an address, its lists as lists.
 fn told(browser: &mut Browser, address: &str) -> Value {
     shown(browser, address, "device");
     let lists =
@@ -44,13 +44,13 @@ fn told(browser: &mut Browser, address: &str) -> Value {
     found(browser, &[], lists)
 }
 
-/// The figure's findings with SwiftShader.
+/// The figure's results with SwiftShader.
 fn swiftshader() -> &'static Value {
     static TOLD: OnceLock<Value> = OnceLock::new();
     TOLD.get_or_init(|| told(&mut Browser::with_webgl(), &address(PAGE)))
 }
 
-/// The exact t of every ray, 0 for a miss: of the sphere, then of the box, kind by kind.
+/// The exact t of every ray, 0 for a miss: for the sphere, then for the box, kind by kind.
 fn exact(told: &Value) -> [Vec<f64>; 2] {
     let rays: [Vec<Vec<u32>>; 2] = serde_json::from_value(told["rays"].clone()).unwrap();
     let walls: [[f32; 3]; 2] = serde_json::from_value(told["walls"].clone()).unwrap();
@@ -73,7 +73,7 @@ fn exact(told: &Value) -> [Vec<f64>; 2] {
     })
 }
 
-/// The errors of a case's hits, and its false hits and false misses, from the bits of its answers.
+/// The errors of a case's hits, and its false hits and false misses, from the bits of its results.
 fn judged(case: &Value, exact: &[f64]) -> (Vec<f64>, [usize; 2]) {
     let answers: Vec<u32> = serde_json::from_value(case["answers"].clone()).unwrap();
     assert_eq!(answers.len(), 4 * exact.len());
@@ -98,7 +98,7 @@ fn part(errors: &[f64], part: f64) -> f64 {
 #[ignore = "nightly only: in a browser"]
 fn the_stored_answers_are_exact() {
     let all = exact(swiftshader()).concat();
-    // From a half on a step is a 256th of a ULP.
+    // From a half on, a step is a 256th of a ULP.
     assert!(all.iter().all(|&t| t == 0.0 || (0.5..1.0).contains(&t)));
     let bytes = all.iter().flat_map(|t| ((t * 2f64.powi(32)).round() as u32).to_le_bytes());
     let text = base64(&bytes.collect::<Vec<_>>()) + "\n";
@@ -129,8 +129,8 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// Checks that a device computes what the page says of all devices: the counts are those of the raw bits, and with
-/// `keep` the two-float rungs are right.
+/// Checks the page's statements about all devices: the counts follow from the raw bits, and with `keep` the
+/// two-float rungs are right.
 fn hold(told: &Value) {
     let exact = exact(told);
     let number = |case: &Value, key: &str| case[key].as_f64().unwrap();
@@ -175,7 +175,8 @@ fn the_textbook_errs_as_much_as_the_chapter_says() {
         let of_kind = json!({ "answers": answers[4 * MANY * kind..][..4 * MANY] });
         let (errors, _) = judged(&of_kind, &exact[MANY * kind..][..MANY]);
         let chapter = &chapter["values"][format!("sphere-{family}-radii-S0-direct.p50")];
-        // The page's rays begin up to √3 times as far away, and the error grows with the distance's square.
+        // The page's rays start up to √3 times as far away, and the error grows with the square of the
+        // distance.
         let ratio = part(&errors, 0.5) / chapter.as_f64().unwrap();
         assert!((0.5..3.0).contains(&ratio), "{family}: {ratio}");
     }
@@ -234,7 +235,7 @@ fn operations_are_judged_as_the_processor_judges_them() {
         let tiny: Vec<&str> = tiny.take(2).map(|x| if x == 0.0 { "0" } else { "2" }).collect();
         assert!((0..2).all(|i| said[10 + i].as_str().unwrap().starts_with(tiny[i])), "{said}");
     }
-    // Nothing is a two-float without these two.
+    // Two-floats require both of these.
     let with = &told["operations"]["with"]["told"];
     assert_eq!([&with[8], &with[9]], [&json!("64 of 64 exact"); 2]);
 }
@@ -251,7 +252,7 @@ fn without_keep_nothing_is_left_of_it_but_its_name() {
     assert_eq!(without.matches("{ return a; }").count(), 4);
     let kept = "uintBitsToFloat(floatBitsToUint(a) ^ kept)";
     assert_eq!(without, with.replace(kept, "a"));
-    // What the browser is told is what runs: where `kept` is not 0, only one of them is disturbed.
+    // The source passed to the browser is what runs: if `kept` is not 0, only one of them is affected.
     let disturbed = browser.run(
         "(() => {
             const compute = name => {
@@ -268,7 +269,7 @@ fn without_keep_nothing_is_left_of_it_but_its_name() {
     assert_eq!(disturbed, json!([false, true]));
 }
 
-/// The figure's findings where a shader has other words in a place.
+/// The figure's results with some text of a shader replaced.
 fn planted(file: &str, from: &str, to: &str) -> Value {
     let mark = "<!-- touch device: rung = sphere two-float; keep = with -->";
     let folder = faults::book(&format!("# One\n\n{mark}\n![A](images/a.svg)\n"));
@@ -328,7 +329,7 @@ fn a_sum_s_error_that_is_lost_is_seen() {
     assert!(worst.as_f64().unwrap() > 1.0, "{worst}");
 }
 
-/// Gives the figures of the page, and holds them to what is stored where browser and device are the same.
+/// Records the page's figures, and compares them with the stored ones if browser and device are the same.
 fn recorded(name: &str, device: &str, browser: &mut Browser, told: &Value) {
     assert!(told["device"].as_str().unwrap().contains(device), "{}", told["device"]);
     let version = browser.call("Browser.getVersion", &json!({}));
@@ -368,7 +369,7 @@ fn recorded(name: &str, device: &str, browser: &mut Browser, told: &Value) {
 #[ignore = "nightly only: in a browser"]
 fn the_page_has_the_numbers_of_swiftshader() {
     let told = swiftshader();
-    // It rearranges nothing.
+    // This compiler rearranges nothing.
     for (rung, _) in RUNGS {
         let [with, without] = ["with", "without"].map(|keep| &told["cases"][rung][keep]["answers"]);
         assert_eq!(with, without, "{rung}");
@@ -382,7 +383,7 @@ fn the_page_has_the_numbers_of_llvmpipe() {
     let mut browser = Browser::with_opengl();
     let told = told(&mut browser, &address(PAGE));
     hold(&told);
-    // Without `keep` this compiler finds no rounding error in any sum.
+    // Without `keep`, this compiler removes the rounding error of every sum.
     let errors = told["draws"][1][2].as_array().unwrap().chunks(4).map(|answer| &answer[1]);
     assert!(errors.into_iter().all(|error| *error == json!(0)));
     recorded("this-gpu/llvmpipe", "llvmpipe", &mut browser, &told);

@@ -1,26 +1,26 @@
-//! Work of a process or thread, and its limit.
+//! The work of a process or thread, and its limit.
 //!
-//! A clock tells nothing of a program on a busy machine: others may have had the processors. So limits are
-//! processor time. A clock only ends what sleeps.
+//! On a busy machine, a clock says little about a program, because others may have had the processors. So
+//! limits are in processor time. A clock only ends programs that sleep.
 
 use std::fmt::{Display, Formatter};
 use std::process::Child;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Interval at which the work is checked.
+/// The interval at which the work is checked.
 pub const GLANCE: Duration = Duration::from_millis(10);
 
-/// After this time on the clock nobody waits for what sleeps: far longer than anything takes, whatever else the
-/// machine does.
+/// The time on the clock after which a sleeping program is ended: far longer than anything takes, whatever
+/// else the machine does.
 pub const ASLEEP: Duration = Duration::from_secs(1800);
 
-/// Limit of a process or thread.
+/// A limit of a process or thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limit {
-    /// Limit of processor time.
+    /// The limit of processor time.
     pub processor: Duration,
-    /// Limit on the clock.
+    /// The limit on the clock.
     pub clock: Duration,
 }
 
@@ -28,18 +28,18 @@ impl Limit {
     /// No limit.
     pub const NONE: Self = Self { processor: Duration::MAX, clock: Duration::MAX };
 
-    /// So many seconds of processors, whatever else the machine does.
+    /// A limit in seconds of processor time, whatever else the machine does.
     pub const fn worked(seconds: u64) -> Self {
         Self { processor: Duration::from_secs(seconds), clock: ASLEEP }
     }
 
-    /// So long on the clock, for who waits beside it.
+    /// A limit on the clock, for a program that also waits.
     pub const fn waited(clock: Duration) -> Self {
         Self { processor: Duration::MAX, clock }
     }
 
-    /// Tests whether the limit is exceeded by work that began then. Where the system does not report the work, the
-    /// clock decides.
+    /// Returns whether work that began at `start` exceeds the limit. If the system does not report the work,
+    /// the clock decides.
     pub fn is_over(self, work: Work, start: Instant) -> bool {
         let waited = start.elapsed();
         waited > self.clock || work.done().unwrap_or(waited) > self.processor
@@ -55,32 +55,32 @@ impl Display for Limit {
     }
 }
 
-/// The work of a process or of a thread: the time that processors have spent on it.
+/// The work of a process or of a thread: its processor time.
 #[derive(Clone, Copy, Debug)]
 pub struct Work(#[cfg(target_os = "linux")] Option<libc::clockid_t>);
 
 #[cfg(target_os = "linux")]
 impl Work {
-    /// That of a process, by its number, and all its threads.
+    /// The work of a process, by its number, with all its threads.
     pub fn of_process(id: u32) -> Self {
         let mut clock = 0;
-        // SAFETY: the call writes to the place that it is given, and refuses a process that is not there.
+        // SAFETY: the call writes to the given place, and fails for a process that does not exist.
         let told = unsafe { libc::clock_getcpuclockid(id as i32, &mut clock) } == 0;
         Self(told.then_some(clock))
     }
 
-    /// That of the thread that calls this.
+    /// The work of the calling thread.
     pub fn of_this_thread() -> Self {
         let mut clock = 0;
-        // SAFETY: the thread is there, and the call writes to the place that it is given.
+        // SAFETY: the thread exists, and the call writes to the given place.
         let told = unsafe { libc::pthread_getcpuclockid(libc::pthread_self(), &mut clock) } == 0;
         Self(told.then_some(clock))
     }
 
-    /// The processor time; `None` where nobody reports it, as for a process that has ended.
+    /// The processor time; `None` if it is not reported, as for a process that has ended.
     pub fn done(self) -> Option<Duration> {
         let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-        // SAFETY: the call writes to the place that it is given, and refuses a clock that is not there.
+        // SAFETY: the call writes to the given place, and fails for a clock that does not exist.
         let told = unsafe { libc::clock_gettime(self.0?, &mut time) } == 0;
         told.then(|| Duration::new(time.tv_sec as u64, time.tv_nsec as u32))
     }
@@ -94,26 +94,26 @@ impl From<&Child> for Work {
 
 #[cfg(not(target_os = "linux"))]
 impl Work {
-    /// That of a process, by its number, and all its threads.
+    /// The work of a process, by its number, with all its threads.
     pub fn of_process(_: u32) -> Self {
         Self()
     }
 
-    /// That of the thread that calls this.
+    /// The work of the calling thread.
     pub fn of_this_thread() -> Self {
         Self()
     }
 
-    /// Nobody tells.
+    /// Not reported.
     pub fn done(self) -> Option<Duration> {
         None
     }
 }
 
-/// Waits until a child has worked so long, by the clock where nobody tells, or has ended.
+/// Waits until a child has worked this long, by the clock if work is not reported, or has ended.
 ///
 /// # Panics
-/// If the system does not tell whether the child runs.
+/// If the system does not report whether the child runs.
 pub fn wait_until_worked(child: &mut Child, time: Duration) {
     let start = Instant::now();
     while child.try_wait().expect("a child can be asked for").is_none()
@@ -129,7 +129,7 @@ mod tests {
 
     use super::*;
 
-    /// Time until a script was found to exceed the limit, and its work.
+    /// The time until a script was found to exceed the limit, and its work.
     fn over(limit: Limit, script: &str) -> (Duration, Duration) {
         let mut child = Command::new("sh").args(["-c", script]).spawn().expect("a shell");
         let (start, work) = (Instant::now(), Work::from(&child));
@@ -163,7 +163,7 @@ mod tests {
             work
         });
         let other = other.join().unwrap();
-        // The system wakes who joins a thread a moment before it forgets the thread.
+        // The system wakes a joining thread a moment before it removes the joined one.
         while other.done().is_some() {
             assert!(start.elapsed() < ASLEEP);
             thread::yield_now();

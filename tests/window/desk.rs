@@ -1,4 +1,4 @@
-//! An X server without a screen, a sample's window on it, and a hand that types and drags.
+//! An X server without a screen, a sample's window on it, and simulated keyboard and mouse input.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -20,23 +20,23 @@ use x11rb::rust_connection::RustConnection;
 
 use crate::xvfb;
 
-/// A sample in a window of its own server; both end with it.
+/// A sample in a window on its own server; both are ended on drop.
 pub struct Desk {
-    /// The current folder of the sample, where its pictures go.
+    /// The current folder of the sample, which receives its pictures.
     pub folder: TempDir,
     sample: Option<Child>,
     server: Child,
     x: RustConnection,
     root: u32,
     window: u32,
-    /// The bits of a colour.
+    /// The number of bits of a colour.
     bits: u32,
 }
 
-/// Calls `look` until it finds something.
+/// Calls `look` until it returns something.
 ///
 /// # Panics
-/// If nothing comes of it, with `what`.
+/// If it never does, with `what`.
 pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
     loop {
@@ -70,12 +70,12 @@ impl Desk {
         Self::begin_by(run::heeding(name), arguments, environment)
     }
 
-    /// The same, of a program that may lie anywhere.
+    /// The same for any program.
     pub fn begin_by(command: Command, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
         Self::begin_on(xvfb::start(&[]), command, arguments, environment)
     }
 
-    /// The same, on this server.
+    /// The same on this server.
     pub fn begin_on(
         (server, display): (Child, String),
         mut command: Command,
@@ -117,7 +117,7 @@ impl Desk {
         cookie.reply().map_or_else(|_| String::new(), |p| String::from_utf8_lossy(&p.value).into())
     }
 
-    /// Output of a sample that ends by itself.
+    /// The output of a sample that ends by itself.
     fn last_words(&self) -> String {
         let stderr = self.sample.as_ref().and_then(|sample| sample.stderr.as_ref());
         let stderr = stderr.expect("piped").as_fd().try_clone_to_owned().expect("a descriptor");
@@ -133,13 +133,13 @@ impl Desk {
         text
     }
 
-    /// Without a window manager, nobody else gives the window the keyboard.
+    /// There is no window manager to give the window the keyboard.
     fn focus(&self) {
         self.x.set_input_focus(InputFocus::POINTER_ROOT, self.window, x11rb::CURRENT_TIME).unwrap();
         self.x.sync();
     }
 
-    /// Content of the window.
+    /// The content of the window.
     pub fn shown(&self) -> RgbImage {
         let Ok(size) = self.x.get_geometry(self.window).unwrap().reply() else {
             panic!("the window is gone: {}", self.last_words())
@@ -147,11 +147,11 @@ impl Desk {
         let (width, height) = (size.width, size.height);
         let format = ImageFormat::Z_PIXMAP;
         let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).unwrap();
-        // A window that is resized at this very moment has no such image: try again later.
+        // While the window is being resized there is no such image: try again later.
         let Ok(image) = image.reply() else { return RgbImage::new(width.into(), height.into()) };
         let pixels = image.data.chunks_exact(4).map(|pixel| {
             let word = u32::from_le_bytes([pixel[0], pixel[1], pixel[2], pixel[3]]);
-            // The upper 8 bits of each colour; blue has the lowest.
+            // The upper 8 bits of each colour; blue is in the lowest bits.
             Rgb([2, 1, 0].map(|place| (word >> ((place + 1) * self.bits - 8)) as u8))
         });
         let mut shown = RgbImage::new(width.into(), height.into());
@@ -159,7 +159,7 @@ impl Desk {
         shown
     }
 
-    /// Presses F2 and returns the picture that the sample writes, and its file.
+    /// Presses F2 and returns the picture written by the sample, and its file.
     pub fn picture(&self) -> (RgbImage, PathBuf) {
         let pictures = || {
             let files = self.folder.path().read_dir().expect("the folder is there");
@@ -200,7 +200,7 @@ impl Desk {
         first + index.expect("the keyboard has the key") as u8
     }
 
-    /// Moves the pointer to a place of the window.
+    /// Moves the pointer to a position in the window.
     pub fn point(&self, x: i16, y: i16) {
         let cookie = self.x.translate_coordinates(self.window, self.root, x, y).unwrap();
         let at = cookie.reply().expect("the window is there");
@@ -213,7 +213,7 @@ impl Desk {
         self.fake(event, 1, 0, 0);
     }
 
-    /// Drags from one place to another, in steps as small as a hand's.
+    /// Drags from one position to another, in steps as small as a hand's.
     pub fn drag(&self, from: (i16, i16), to: (i16, i16), steps: i16) {
         self.point(from.0, from.1);
         self.button(true);
@@ -226,7 +226,7 @@ impl Desk {
         self.button(false);
     }
 
-    /// One `FakeInput` of the extension XTEST, as the server sees a real device's.
+    /// One `FakeInput` of the XTEST extension, which the server treats like a real device's.
     fn fake(&self, event: u8, detail: u8, x: i16, y: i16) {
         let extension = self.x.extension_information("XTEST").unwrap().expect("Xvfb has XTEST");
         let mut request = [0; 36];
@@ -246,7 +246,7 @@ impl Desk {
         self.x.sync();
     }
 
-    /// Takes the window off the screen, as a window manager does that minimises it, or brings it back.
+    /// Unmaps the window, like a window manager that minimises it, or maps it again.
     pub fn map(&self, mapped: bool) {
         if mapped {
             self.x.map_window(self.window).unwrap();
@@ -260,7 +260,7 @@ impl Desk {
         }
     }
 
-    /// Presses the button that closes the window, as a window manager tells it.
+    /// Closes the window through the protocol used by window managers.
     pub fn close(&self) {
         let atom = |name: &[u8]| self.x.intern_atom(false, name).unwrap().reply().unwrap().atom;
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
@@ -270,13 +270,13 @@ impl Desk {
         self.x.sync();
     }
 
-    /// Ends the server, as if the user's session had crashed.
+    /// Kills the server, as if the user's session had crashed.
     pub fn kill_server(&mut self) {
         self.server.kill().expect("it runs");
         self.server.wait().expect("it ends");
     }
 
-    /// Destroys the window, as a careless client might.
+    /// Destroys the window, like a faulty client.
     pub fn destroy(&self) {
         self.x.destroy_window(self.window).unwrap();
         self.x.sync();
@@ -287,21 +287,21 @@ impl Desk {
         self.sample.as_ref().expect("the sample runs").id()
     }
 
-    /// Processor time that the sample has taken, in ticks of the system's clock.
+    /// The sample's processor time, in ticks of the system's clock.
     pub fn worked(&self) -> u64 {
         let text = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).expect("it runs");
-        // The program's name, in brackets, may hold anything; the time in its own code is the 12th word behind it.
+        // The program's name, in brackets, may contain anything; the user time is the 12th word after it.
         let (_, words) = text.rsplit_once(") ").expect("a name in brackets");
         let words: Vec<&str> = words.split(' ').collect();
         words[11..13].iter().map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
     }
 
-    /// Waits until the sample has ended, and returns how, and what it said.
+    /// Waits until the sample has ended, and returns its status and output.
     pub fn end(self) -> Output {
         self.end_with(|| ()).0
     }
 
-    /// The same, with a look at the folder before it goes.
+    /// The same, with access to the folder before it is removed.
     pub fn end_with<T>(mut self, look: impl FnOnce() -> T) -> (Output, T) {
         let sample = self.sample.as_mut().expect("the sample runs");
         wait("the end", || sample.try_wait().expect("its state is known"));
@@ -310,17 +310,17 @@ impl Desk {
     }
 }
 
-/// The one line with which a sample refuses to open a window.
+/// The single line with which a sample refuses to open a window.
 pub fn refusal(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> String {
     run::refusal(outcome(name, arguments, environment)).1
 }
 
-/// The outcome of a sample that closes its window by itself.
+/// The result of a sample that closes its window by itself.
 pub fn outcome(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> Output {
     outcome_with(name, arguments, environment, |_| {})
 }
 
-/// The same, with something done to its process, of this number.
+/// The same, with `act` called with the number of its process.
 pub fn outcome_with(
     name: &str,
     arguments: &[&str],
@@ -330,7 +330,7 @@ pub fn outcome_with(
     outcome_on(xvfb::start(&[]), name, arguments, environment, then)
 }
 
-/// The same, on this server.
+/// The same on this server.
 pub fn outcome_on(
     (mut server, display): (Child, String),
     name: &str,
@@ -361,7 +361,7 @@ impl Drop for Desk {
 }
 
 trait Sync {
-    /// Returns once the server has done everything that was asked of it.
+    /// Returns after the server has processed all requests.
     fn sync(&self);
 }
 

@@ -1,4 +1,4 @@
-//! Calls of Vulkan that fail while a window is there: each is answered in one line, or made up for.
+//! Failing Vulkan calls while a window is open: each is reported in one line, or handled.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -8,7 +8,7 @@ use run::layer::Layer;
 
 use crate::{alone, desk};
 
-/// Lets calls of a sample's window fail, which shows three frames; whether each is answered.
+/// Makes calls of a sample's window fail, which shows three frames; returns whether each is handled.
 fn is_safe(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
     let run = |layer: &Layer, calls: &Path| {
         let mut environment: Vec<(&str, OsString)> = layer.environment();

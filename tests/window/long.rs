@@ -1,4 +1,4 @@
-//! A window that is played with for long: memory, handles and threads stay as many as they were.
+//! A window that is used for a long time: memory, handles and threads do not increase.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ use crate::{LIGHT_SHADOWS, alone, copy_shaders, ended_well};
 
 const NAME: &str = "25_scene_effects";
 
-/// Resources of a process: megabytes of memory, open files, threads.
+/// The resources of a process: megabytes of memory, open files, threads.
 #[derive(Clone, Copy, Debug, Default)]
 struct Held {
     megabytes: usize,
@@ -47,7 +47,7 @@ impl Held {
     }
 }
 
-/// Plays with a window: drags in the panel and on the picture, keys, sizes, edited shaders.
+/// Uses a window: drags in the panel and on the picture, keys, sizes, edited shaders.
 struct Hand<'a> {
     random: Random,
     desk: &'a Desk,
@@ -78,7 +78,7 @@ impl Hand<'_> {
         sleep(Duration::from_millis(self.random.below(60) as u64));
     }
 
-    /// Drags from somewhere between two columns to a place near it: a click, a slider, a turn.
+    /// Drags from a random place between two columns to one near it: a click, a slider, a rotation.
     fn drag(&mut self, left: i16, right: i16) {
         let x = left + self.random.below((right - left) as usize) as i16;
         let y = 15 + self.random.below(self.size[1] as usize - 20) as i16;
@@ -87,7 +87,7 @@ impl Hand<'_> {
         self.desk.drag((x, y), (x + by, y), steps);
     }
 
-    /// One edit in eight breaks the shader, and the next mends it.
+    /// One edit in eight breaks the shader, and the next fixes it.
     fn edit(&mut self) {
         let file = self.shaders.join(NAME).join("sky.rmiss");
         let good = fs::read_to_string(run::root().join("shaders").join(NAME).join("sky.rmiss"));
@@ -123,7 +123,7 @@ fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
         held.push(Held::by(desk.id()));
     }
     let counts = hand.counts;
-    // It still answers.
+    // It still responds.
     fs::copy(
         run::root().join("shaders").join(NAME).join("sky.rmiss"),
         shaders.path().join(NAME).join("sky.rmiss"),
@@ -144,7 +144,7 @@ fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
             println!("{line}");
         }
     }
-    // In an hour: so many pictures of other sizes, and edits, as the test is there for.
+    // Per hour: enough pictures of other sizes, and edits, for the test to be meaningful.
     let least = |count: usize, hourly: f64| count as f64 >= hourly * minutes / 60.0;
     assert!(least(counts[3], 2000.0) && least(counts[4], 500.0), "{counts:?}");
     let (early, late) = (quarters[1], quarters[3]);
@@ -172,7 +172,7 @@ fn controls_may_change_faster_than_pipelines_are_made() {
     let (start, work) = (Instant::now(), Work::of_process(desk.id()));
     let enough = Limit::worked(8);
     while !enough.is_over(work, start) {
-        // A switch of an effect, or beside it.
+        // The switch of an effect, or a place near it.
         let switch = (LIGHT_SHADOWS.0, 390 + random.below(270) as i16);
         desk.drag(switch, switch, 1);
         clicks += 1;
@@ -182,6 +182,6 @@ fn controls_may_change_faster_than_pipelines_are_made() {
     ended_well(desk.end());
     let made = Layer::calls(&calls)["vkCreateRayTracingPipelinesKHR"];
     println!("{clicks} clicks, {made} pipelines");
-    // The first, and some in the background; what was changed meanwhile was never made.
+    // The first, and some in the background; settings changed meanwhile were never built.
     assert!((3..clicks).contains(&made), "{clicks} clicks, {made} pipelines");
 }

@@ -10,7 +10,7 @@ use crate::{DEVICE_LOST, LIGHT_SHADOWS, alone, same};
 
 const SMALL: [&str; 2] = ["--size", "640x420"];
 
-/// A sample that loses its device in the next call of a function, once that is asked for.
+/// A sample that loses its device in the next call of a function, on request.
 struct Losing {
     desk: Desk,
     folder: tempfile::TempDir,
@@ -31,8 +31,8 @@ impl Losing {
         Self { desk, folder, _layer: layer }
     }
 
-    /// Loses the device, and waits for the end: one line, and all that was made of the device is destroyed, or
-    /// validation would have told of what had not been.
+    /// Loses the device, and waits for the end: one line, and every object of the device is destroyed,
+    /// because otherwise validation would have reported it.
     fn lose(self) {
         std::fs::write(self.folder.path().join("fault"), "").expect("a file");
         self.desk.key(KEY_F1);
@@ -41,7 +41,7 @@ impl Losing {
     }
 }
 
-/// One line about a lost device, and exit code 1.
+/// Checks for one line about a lost device, and exit code 1.
 #[track_caller]
 fn is_told(output: &Output) {
     let said = String::from_utf8_lossy(&output.stderr);
@@ -61,7 +61,7 @@ fn a_window_ends_in_one_line_wherever_its_device_is_lost() {
     }
 }
 
-/// In 08 the pipeline is made for the first picture.
+/// In 08, the pipeline is created for the first picture.
 #[test]
 fn a_device_may_be_lost_before_the_first_picture() {
     let _alone = alone();
@@ -82,14 +82,14 @@ fn a_device_may_be_lost_in_an_animation() {
     }
     wait("another time", || (!same(&start, &desk.picture().0)).then_some(()));
     losing.lose();
-    // While it plays: from the second frame on, however many bands a frame has, which depends on how busy the
+    // While it plays: from the second frame on, whatever the number of bands, which depends on how busy the
     // machine is.
     let moving = ["--size", "160x100", "--set", "play=on"];
     let layer = Layer::fail_nth_call(&format!("vkQueuePresentKHR:2+:{DEVICE_LOST}"));
     is_told(&crate::desk::outcome("14_animation", &moving, &layer.environment()));
 }
 
-/// In 25 another pipeline is made in the background for other controls.
+/// In 25, another pipeline is created in the background for other controls.
 #[test]
 #[ignore = "nightly: a large window; quick: lost::a_window_whose_frames_are_counted_ends_with_its_device"]
 fn a_device_may_be_lost_while_a_pipeline_is_made() {

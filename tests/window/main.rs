@@ -1,7 +1,6 @@
-//! The window, as its user has it: on an X server, with a keyboard and a mouse.
+//! The window from a user's view: on an X server, with a keyboard and a mouse.
 //!
-//! Xvfb has no window manager, so a window is minimised here by taking it off the screen, which is what
-//! a window manager does.
+//! Xvfb has no window manager, so a window is minimised here by unmapping it, as a window manager does.
 #![cfg(unix)]
 
 mod desk;
@@ -31,22 +30,22 @@ const SLIDER: [(i16, i16); 2] = [(140, 236), (250, 236)];
 const LIGHT_SHADOWS: (i16, i16) = (163, 461);
 /// The right edge of the panel.
 const PANEL: u32 = 352;
-/// The panel's background where it tells of an error.
+/// The panel's background while it shows an error.
 const ERROR: Rgb<u8> = Rgb([58, 24, 24]);
 
-/// One window at a time: two would share the processor, and their times would be of no use.
+/// One window at a time: two would share the processor and spoil each other's times.
 fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The sample has ended well and in silence: no error, no validation message.
+/// Checks that the sample has ended successfully without an error or a validation message.
 fn ended_well(output: Output) {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && errors.is_empty(), "{}: {errors}", output.status);
 }
 
-/// Tests whether every pixel right of the panel is the same except for rounding.
+/// Returns whether all pixels right of the panel are equal except for rounding.
 fn same(a: &RgbImage, b: &RgbImage) -> bool {
     let near = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 1);
     let mut pixels = a.enumerate_pixels().zip(b.pixels());
@@ -57,8 +56,8 @@ fn tells_error(desk: &Desk) -> bool {
     desk.shown().pixels().filter(|pixel| **pixel == ERROR).count() > 500
 }
 
-/// The picture that a drag makes of this one. Where the machine is busy, a whole drag may come between two frames
-/// of the window, which then sees none: it is dragged again.
+/// The picture after a drag, which must differ. On a busy machine, a whole drag may happen between two frames
+/// of the window, which then sees none of it, so it is repeated.
 fn changed(desk: &Desk, before: &RgbImage, [from, to]: [(i16, i16); 2]) -> RgbImage {
     wait("another picture", || {
         desk.drag(from, to, 10);
@@ -72,7 +71,7 @@ fn a_window_shows_the_picture_and_answers_mouse_and_keys() {
     let desk = Desk::open("02_basic", &["--validate", "--size", "640x420"], &[]);
     let (first, file) = desk.picture();
     assert!(file.ends_with("02_basic-001.png"), "{}", file.display());
-    // The same numbers as the picture's: the window converts to sRGB just once.
+    // The same numbers as the picture's: the window converts to sRGB only once.
     wait("the picture in the window", || same(&desk.shown(), &first).then_some(()));
 
     let moved = changed(&desk, &first, [SLIDER[0], SLIDER[1]]);
@@ -97,7 +96,7 @@ fn a_pixel_that_is_clicked_has_its_rays_printed() {
     let desk = Desk::open("02_basic", &["--pixel", "click", "--size", "640x420"], &[]);
     desk.picture();
     desk.click_with_control((500, 300));
-    // What was asked after the click is answered after it.
+    // A request after the click is processed after it.
     desk.picture();
     desk.key(KEY_ESCAPE);
     let output = desk.end();
@@ -246,8 +245,8 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     wait("the error", || tells_error(&desk).then_some(()));
     assert!(same(&desk.picture().0, &first), "the last good picture stays");
 
-    // What a compiler's bindings take for a mistake of the program: a zero byte, and a version of desktops. And
-    // what overflows the compiler's stack.
+    // Input that makes the compiler's bindings panic: a zero byte, and a version of desktop GLSL. And a sum
+    // that overflows the compiler's stack.
     let terms = " + x * y".repeat(100_000);
     let sum = format!("float much(float x) {{ float y = 0.0; y += x{terms}; return y; }}");
     let version = good.replace("#version 460", "#version 110");
@@ -279,7 +278,7 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     let layout = std::fs::read_to_string(&push).expect("the push constants");
     edit(&good);
     wait("no error", || (!tells_error(&desk)).then_some(()));
-    // The value that was set outlives every reload.
+    // A changed setting survives every reload.
     wait("the first picture", || same(&desk.picture().0, &first).then_some(()));
     let light = "DirectionalLight light;";
     std::fs::write(&push, layout.replace(light, &format!("uint less;\n    {light}")))
@@ -289,7 +288,7 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     ended_well(desk.end());
 }
 
-/// A file that changes between the look of the check and that of the compiler is of no consequence.
+/// A file may change between the check and the compiler's reading without harm.
 #[test]
 #[ignore = "nightly: many compilations; quick: edited_shaders_are_reloaded_and_broken_ones_are_told_of"]
 fn a_shader_may_change_while_it_is_compiled() {
@@ -313,7 +312,7 @@ fn a_shader_may_change_while_it_is_compiled() {
     ended_well(desk.end());
 }
 
-/// One line that tells of the window system, and exit code 1.
+/// Checks for one line about the window system, and exit code 1.
 #[track_caller]
 fn failed(output: Output) {
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -349,7 +348,7 @@ fn a_window_that_another_client_destroys_ends_in_one_line() {
     failed(desk.end());
 }
 
-/// Results of Vulkan where a window is concerned.
+/// Vulkan results related to windows.
 const OUT_OF_HOST_MEMORY: i32 = -1;
 const DEVICE_LOST: i32 = -4;
 const SURFACE_LOST: i32 = -1_000_000_000;
@@ -357,7 +356,7 @@ const OUT_OF_DATE: i32 = -1_000_001_004;
 const SUBOPTIMAL: i32 = 1_000_001_003;
 const TIMEOUT: i32 = 2;
 
-/// Opens a window for a few frames, in which a call fails; returns whether they were shown all the same.
+/// Opens a window for a few frames with a failing call; returns whether the frames were shown nevertheless.
 #[track_caller]
 fn shows_all_the_same(function: &str, number: usize, result: i32) -> bool {
     let fault = format!("{function}:{number}:{result}");
@@ -449,13 +448,14 @@ fn without_a_display_one_line_offers_headless() {
     assert!(code == 2 && line.contains("--headless"), "{line}");
 }
 
-/// The picture of a program's window below `docs/images`, which `UPDATE=1 cargo test --test window` makes.
+/// Compares a program's window with its picture below `docs/images`, which `UPDATE=1 cargo test --test
+/// window` makes.
 fn is_shown(program: &str, name: &str) {
     let _alone = alone();
     let file = run::root().join("docs/images").join(name);
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
         let desk = Desk::open(program, &["--size", "1280x720"], &[]);
-        // There and back, until the plot is full.
+        // Back and forth, until the plot is full.
         for _ in 0..2 {
             desk.drag((800, 500), (1100, 540), 240);
             desk.drag((1100, 540), (800, 500), 240);
@@ -463,7 +463,7 @@ fn is_shown(program: &str, name: &str) {
         desk.key(KEY_HOME);
         desk.picture();
         desk.point(1100, 690);
-        // The note of the written picture makes way for what stands there at rest.
+        // The note about the written picture disappears, and the usual text returns.
         std::thread::sleep(std::time::Duration::from_secs(5));
         desk.shown().save(&file).expect("the picture can be written");
         desk.key(KEY_ESCAPE);
@@ -506,7 +506,7 @@ fn a_pipeline_that_cannot_be_made_leaves_the_old_one_in_its_place() {
     ended_well(desk.end());
 }
 
-/// The narrowest device's environment, with what else is wrong with it.
+/// The narrowest device's environment, with additional faults.
 fn narrow(faults: &str) -> (Layer, Vec<(&'static str, std::ffi::OsString)>) {
     let narrow = Layer::minimum_limits(faults);
     let environment = narrow.environment();

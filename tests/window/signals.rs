@@ -1,5 +1,5 @@
-//! Signals to a window, from its start to a picture that is written: it ends by the signal, and nothing
-//! half-written is left.
+//! Signals to a window, from its start to the writing of a picture: it ends by the signal, and leaves nothing
+//! half-written.
 
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output};
@@ -11,11 +11,11 @@ use reference::random::Random;
 use crate::alone;
 use crate::desk::{self, Desk, KEY_F2};
 
-/// Windows that get a signal, each at another moment.
+/// The number of windows that get a signal, each at another moment.
 const TRIES: u32 = 3;
 const SIGNALS: [(&str, i32); 3] = [("INT", 2), ("TERM", 15), ("HUP", 1)];
 
-/// Sends a signal that is drawn, and returns its number.
+/// Sends a random signal, and returns its number.
 fn signal(random: &mut Random, id: u32) -> i32 {
     let (name, number) = SIGNALS[random.below(3)];
     let sent = Command::new("kill").args(["-s", name, &id.to_string()]).status();
@@ -23,7 +23,7 @@ fn signal(random: &mut Random, id: u32) -> i32 {
     number
 }
 
-/// The signal has ended it, and in silence.
+/// Checks that the signal has ended it, without output.
 #[track_caller]
 fn ended_by(number: i32, output: &Output) {
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -54,7 +54,7 @@ fn a_signal_may_come_while_a_window_writes_a_picture() {
         desk.key(KEY_F2);
         sleep(Duration::from_secs_f64(random.between(0.0, 0.06)));
         let sent = signal(&mut random, desk.id());
-        // The folder goes with the desk.
+        // The folder is removed with the desk.
         let (output, files) = desk.end_with(|| {
             let files =
                 folder.read_dir().expect("a folder").map(|file| file.expect("a file").path());

@@ -1,4 +1,4 @@
-//! Displays and cards that a software driver on an X server is not, by the layer `display_faults`.
+//! Displays and cards unlike a software driver on an X server, simulated by the layer `display_faults`.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::desk::{Desk, KEY_ESCAPE, wait};
 use super::{alone, desk, ended_well, same, xvfb};
 
-/// Counts of a display.
+/// The counts of a display.
 #[derive(Debug, PartialEq)]
 struct Counted {
     swapchains: u32,
@@ -19,7 +19,7 @@ struct Counted {
     presented: u32,
 }
 
-/// Opens a sample under a mood, has `act` done to its window, and counts.
+/// Opens a sample under the layer with these words, calls `act` with its window, and returns the counts.
 fn under(
     mood: &str,
     name: &str,
@@ -43,7 +43,7 @@ fn under(
     (Counted { swapchains, acquired, presented }, output)
 }
 
-/// Number of frames and of pictures in the log, once the sample has ended well.
+/// The numbers of frames and of pictures in the log, after the sample has ended successfully.
 fn frames_and_pictures(output: &Output) -> [u32; 2] {
     let log = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && log.lines().count() == 1, "{}: {log}", output.status);
@@ -65,7 +65,7 @@ fn a_display_that_calls_every_image_suboptimal_gets_new_ones_once() {
 #[ignore = "nightly: another window; quick: stand_ins::a_display_that_calls_every_image_suboptimal_gets_new_ones_once"]
 fn a_resize_is_followed_where_every_image_is_suboptimal() {
     let (counted, output) = under("suboptimal", "02_basic", &["--size", "480x300"], |desk| {
-        // A window may be mapped long before it has images: then its first would have the new size.
+        // A window may be mapped long before it has images, and its first one would then have the new size.
         desk.wait_for_a_picture();
         desk.resize(400, 360);
         let sized = || Some(desk.picture().0).filter(|image| image.dimensions() == (400, 360));
@@ -93,8 +93,8 @@ fn a_display_may_want_more_images() {
     assert_eq!(counted, Counted { swapchains: 1, acquired: 20, presented: 20 });
 }
 
-/// A picture this small takes a fraction of a millisecond, and the display is shown one in 12; on a busy machine,
-/// larger ones take as long as that.
+/// A picture this small takes a fraction of a millisecond, and the display shows one in 12; on a busy
+/// machine, larger ones take as long as that.
 #[test]
 fn pictures_are_added_to_a_mean_without_waiting_for_the_display() {
     let arguments = ["--size", "16x10", "--frames", "30"];
@@ -115,7 +115,7 @@ fn launches_are_widened_where_a_card_is_too_fast_to_be_timed() {
     assert!(table.contains("\n> Launches were widened to "), "{table}");
 }
 
-/// A few rays keep no card busy: more invocations ask the same.
+/// A few rays do not fill a card, so more invocations trace the same ones.
 #[test]
 #[ignore = "nightly: it measures; quick: stand_ins::launches_are_widened_where_a_card_is_too_fast_to_be_timed"]
 fn rungs_are_timed_on_a_card_that_is_full() {
@@ -132,7 +132,7 @@ fn rungs_are_timed_on_a_card_that_is_full() {
     assert!(!copies.is_empty() && copies.iter().all(|&copies| copies >= 64), "{measured}");
 }
 
-/// Whatever the display says of an image: a window that shows what there is to be seen does nothing.
+/// For every result of the display: a window that shows its final picture does nothing.
 #[test]
 fn a_window_at_rest_takes_no_time() {
     windows_at_rest_take_no_time(&["suboptimal"]);

@@ -1,4 +1,4 @@
-//! A crate that `cargo chapters start` has made: its own shaders, and behind them the book's.
+//! A crate made by `cargo chapters start`: its own shaders, with the book's as a fallback.
 
 use std::path::Path;
 use std::process::Command;
@@ -9,7 +9,7 @@ use image::Rgb;
 use super::desk::{Desk, wait};
 use super::{alone, ended_well, tells_error};
 
-/// Makes the sky in the raygen shader of `folder` wrong, and then green, and the window follows.
+/// Makes the sky in the raygen shader of `folder` wrong, and then green; the window follows.
 fn follows_an_edit(desk: Desk, folder: &Path) {
     let raygen = folder.join("camera.rgen");
     let good = std::fs::read_to_string(&raygen).expect("the raygen shader");
@@ -29,7 +29,7 @@ fn follows_an_edit(desk: Desk, folder: &Path) {
     ended_well(desk.end());
 }
 
-/// What the book has compiled is used, and its programs stay what they are.
+/// The crate uses the results of the book's build, and the book's programs are unchanged.
 #[test]
 #[ignore = "nightly: it compiles the framework for another crate; quick: docs start::a_crate_of_one_s_own_is_whole_and_pinned"]
 fn a_started_crate_uses_what_the_book_has_compiled() {
@@ -55,7 +55,7 @@ fn a_started_crate_uses_what_the_book_has_compiled() {
     assert!(program.status().expect("it starts").success() && out.is_file());
 }
 
-/// The copy is all that `SHADERS` names: what it includes of `common/` comes from the book.
+/// The copy is all that `SHADERS` contains: files included from `common/` come from the book.
 #[test]
 fn a_program_outside_the_book_follows_edits_of_its_own_shaders() {
     let _alone = alone();
@@ -66,7 +66,7 @@ fn a_program_outside_the_book_follows_edits_of_its_own_shaders() {
     follows_an_edit(desk, &copy.path().join("my_tracer"));
 }
 
-/// An edit that compiles, and reads beyond an array: the driver takes the window with it, and a line is left.
+/// An edit that compiles but reads beyond an array: the driver crashes with the window, and leaves one line.
 #[test]
 fn an_edit_that_crashes_the_driver_ends_the_window_in_a_line() {
     if !run::device::is_software() {
@@ -117,8 +117,8 @@ fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     cargo(&["build"]);
     println!("built in {} s", start.elapsed().as_secs());
     cargo(&["test", "--locked"]);
-    // The steps of the page. With a hit record beyond the table, or one of the other kind, the sphere would be gone
-    // without a word.
+    // The steps of the page. With a hit record beyond the table, or of the other kind, the sphere would
+    // silently disappear.
     let main = folder.join("src/main.rs");
     let apply = |step: &str| {
         let changed = run::root().join("docs/chapters/start").join(step);
@@ -153,7 +153,7 @@ fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     }
     std::fs::write(&main, good).expect("an edit");
     cargo(&["build"]);
-    // Nothing of it lies in the book.
+    // None of it is in the book's folder.
     assert!(home.join("raybook/spirv").is_dir() && home.join("raybook/pipelines").is_dir());
 
     let _alone = alone();

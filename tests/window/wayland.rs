@@ -1,4 +1,4 @@
-//! A window on Wayland, of a compositor without a screen.
+//! A window on Wayland, with a compositor without a screen.
 
 use std::process::{Child, Command, Stdio};
 
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use super::desk::wait;
 use super::{alone, ended_well};
 
-/// weston, and the folder of its socket; it ends with this.
+/// weston, and the folder of its socket; it is ended on drop.
 struct Compositor {
     folder: TempDir,
     server: Child,
@@ -39,8 +39,8 @@ impl Drop for Compositor {
     }
 }
 
-/// winit asks for a frame's callback before each present and draws nothing until it comes: where the present shows
-/// nothing, none comes.
+/// winit requests a frame callback before each present and draws nothing until it arrives; if the present
+/// shows nothing, none arrives.
 #[test]
 fn a_present_that_shows_nothing_is_made_up_for_at_once() {
     let _alone = alone();

@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-/// Starts one on a free display, which it tells, with these arguments, too.
+/// Starts a server on a free display with additional arguments; returns the display's name.
 pub fn start(more: &[&str]) -> (Child, String) {
     let mut command = Command::new("Xvfb");
     command.args(["-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]);

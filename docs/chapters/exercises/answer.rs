@@ -1,4 +1,4 @@
-//! The answer to an exercise that takes only looking: a number, or one of the words that its question lists.
+//! The answer to an exercise that needs no edits: a number, or one of the words listed in the question.
 
 use super::interval::{Interval, number};
 
@@ -48,7 +48,7 @@ impl Answer {
     /// Returns whether an answer is right.
     ///
     /// # Errors
-    /// If it is neither a number nor a listed word: which of them the question takes.
+    /// If it is neither a number nor a listed word; the message says which of them the question accepts.
     pub fn accept(&self, given: &str) -> Result<bool, String> {
         match self {
             Self::Number(interval) => {
@@ -62,7 +62,7 @@ impl Answer {
         }
     }
 
-    /// The answers that the question takes, in words.
+    /// Describes the answers that the question accepts.
     pub fn form(&self) -> String {
         match self {
             Self::Number(_) => "a number".to_owned(),
@@ -145,7 +145,7 @@ mod tests {
         }
     }
 
-    /// Every exercise of the book that asks a question takes its own answer and no other.
+    /// Checks every question of the book: it accepts its own answer and no other.
     #[test]
     fn right_answers_pass_and_wrong_ones_fail() {
         let tool = Path::new(env!("CARGO_MANIFEST_DIR"));

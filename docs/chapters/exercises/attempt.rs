@@ -1,4 +1,5 @@
-//! An exercise held against an edition of the code: is it solved, and is it what its file says?
+//! Checks an exercise against an edition of the code: whether it is solved, and whether its file describes it
+//! correctly.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -34,17 +35,17 @@ pub struct Originals<'a> {
 }
 
 impl<'a> Originals<'a> {
-    /// Pictures that are rendered when they are asked for.
+    /// Renders the pictures on demand.
     pub fn new(programs: &'a Programs<'a>) -> Self {
         Self { programs, kept: None, known: Mutex::default() }
     }
 
-    /// Pictures that lie in a folder.
+    /// Reads the pictures from a folder.
     pub fn kept(programs: &'a Programs<'a>, folder: &Path) -> Self {
         Self { kept: Some(folder.to_owned()), ..Self::new(programs) }
     }
 
-    /// Renders all that an exercise is compared with into a folder: whole, or not at all.
+    /// Renders every picture an exercise is compared with into a folder; nothing is left there if one fails.
     ///
     /// # Errors
     /// If one cannot be rendered or written.
@@ -64,7 +65,7 @@ impl<'a> Originals<'a> {
             .with_context(|| format!("cannot make '{}'", folder.display()))
     }
 
-    /// The chapter and the arguments that make the picture to compare with.
+    /// The chapter and the arguments of the picture to compare with.
     fn meant(&self, exercise: &Exercise, run: &[String], other: &Other) -> (String, Vec<String>) {
         let mut arguments = other.arguments.clone().unwrap_or_else(|| run.to_vec());
         let named = |word: &String| self.programs.project.named(word).is_some();
@@ -116,7 +117,7 @@ pub struct Verdict {
     pub picture: Option<Picture>,
 }
 
-/// An exercise, and what it takes to hold it against an edition.
+/// An exercise, with everything needed to check an edition against it.
 pub struct Attempt<'a> {
     /// Its programs.
     pub programs: &'a Programs<'a>,
@@ -128,14 +129,14 @@ pub struct Attempt<'a> {
     pub solution: &'a Solution<'a>,
 }
 
-/// The expectations of an exercise that an edition is checked against.
+/// The expectations that an edition is checked against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Held {
-    /// Those that tell whether a reader has solved it.
+    /// Those that decide whether a reader has solved it.
     Reader,
-    /// As a reader's, but for tests, which take minutes to build.
+    /// As for a reader, without tests, which take minutes to build.
     Pictures,
-    /// All: what the page says of the solution's picture, too.
+    /// All of them, including what the page says about the solution's picture.
     All,
 }
 
@@ -143,7 +144,7 @@ impl Attempt<'_> {
     /// Checks whether an edition solves the exercise. Code that does not compile or run does not.
     ///
     /// # Errors
-    /// If it cannot be told: a program is not built, the book's own run fails.
+    /// If there is no verdict, because a program is not built or the book's own run fails.
     pub fn verdict(&self, edition: &Edition) -> Result<Verdict> {
         self.verdict_of(edition, Held::Reader)
     }
@@ -248,7 +249,7 @@ impl Attempt<'_> {
             let near = || self.near(seen.device());
             if let Some(what) = expectation.missed(seen, picture, &near)? {
                 let arguments = Some(arguments.to_vec());
-                // The target itself would give the solution away.
+                // Showing the target would give the solution away.
                 let beside = with.map(|(what, picture)| match (&seen.picture, as_solution) {
                     (Some(own), true) => (what, marked(own, &picture)),
                     _ => (what, picture),
@@ -269,11 +270,11 @@ impl Attempt<'_> {
         Ok(if to_the_bit { None } else { Near::if_any(chapter).map(Near::both) })
     }
 
-    /// Holds the exercise to its word: not solved before its solution, and solved after; the line says
-    /// what was missed before.
+    /// Checks that the exercise is unsolved before its solution and solved after it; the returned line says
+    /// what was missing before.
     ///
     /// # Errors
-    /// If that is not so.
+    /// If either check fails.
     pub fn prove(&self) -> Result<String> {
         let (exercise, file) = (self.exercise, &self.exercise.patch.file);
         let before = self.verdict(&Edition::Book).with_context(|| file.clone())?.missed;

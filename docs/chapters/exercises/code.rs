@@ -1,8 +1,8 @@
-//! Code that a solution takes away: a picture cannot tell who has made it in another way.
+//! Code that a solution removes. A picture cannot show whether it was replaced.
 
 use anyhow::Result;
 
-/// The place where code is still used, in a line; `read` returns the contents of a file.
+/// The place where the code is still used, in one line; `read` returns the contents of a file.
 ///
 /// # Errors
 /// If a file cannot be read.
@@ -11,7 +11,7 @@ pub fn left(
     files: &[&str],
     read: impl Fn(&str) -> Result<String>,
 ) -> Result<Option<String>> {
-    // A comment may still tell what stood there.
+    // A comment may still mention the removed code.
     let holds = |line: &str| line.split("//").next().is_some_and(|before| before.contains(code));
     for file in files {
         if read(file)?.lines().any(holds) {

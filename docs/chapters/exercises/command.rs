@@ -1,4 +1,4 @@
-//! `cargo chapters exercise`: what a reader, or an author, asks of an exercise.
+//! `cargo chapters exercise`: the commands for readers and authors of exercises.
 
 use std::path::PathBuf;
 
@@ -70,10 +70,10 @@ pub struct ExerciseArguments {
 }
 
 impl ExerciseArguments {
-    /// Does what is asked.
+    /// Runs the command.
     ///
     /// # Errors
-    /// If it cannot be done, or the exercise is not solved yet where that is asked.
+    /// If it fails, or if it checks an exercise that is not solved yet.
     pub fn run(&self, project: &Project) -> Result<()> {
         interrupt::listen();
         if self.prove || self.vary {
@@ -151,7 +151,7 @@ impl ExerciseArguments {
         let time = exercise.time();
         let text = plain(&exercise.text);
         let heading = format!("{exercise} · {title} ({takes}, {time})\n\n{text}\n\n");
-        // What is seen once it is done would give the answer away.
+        // The final result would give the answer away.
         if exercise.takes == Takes::Look {
             bench.set_up()?;
             print(&heading)?;
@@ -199,7 +199,7 @@ impl ExerciseArguments {
         Ok(())
     }
 
-    /// Proves the exercises that are named, or all.
+    /// Proves the named exercises, or all.
     fn prove(&self, project: &Project) -> Result<()> {
         let mut exercises = Vec::new();
         for name in &self.names {
@@ -209,12 +209,12 @@ impl ExerciseArguments {
             exercises = Exercise::whole(project)?;
         }
         if self.vary {
-            // Of Rust code each variant would be built.
+            // Each variant of Rust code would need a build.
             exercises.retain(|exercise| exercise.takes == Takes::Shader);
         }
         let programs = &Programs::beside_this(project)?;
         let originals = &Originals::new(programs);
-        // Printed as they come: those that are built take minutes.
+        // Printed one by one, because an exercise that needs a build takes minutes.
         let prove = |exercise: &Exercise| {
             interrupt::asked()?;
             let line = if self.vary {
@@ -258,7 +258,7 @@ fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Res
     }
 }
 
-/// The addition to a failure's line once the target may be shown.
+/// The addition to the failure message once the target may be shown.
 pub fn offer(exercise: &Exercise, progress: &Progress) -> String {
     if progress.shows_target(exercise) {
         format!("; --target shows the target of {exercise}")

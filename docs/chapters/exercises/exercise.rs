@@ -1,7 +1,7 @@
 //! An exercise: what a reader is to do, how to check it, and the patch that solves it.
 //!
-//! Each is a file `docs/exercises/NN.k.diff`, a [`Patch`]. What its fields claim is held against runs of the
-//! chapter by [`super::attempt`]; the list on the chapter's page is made from them.
+//! Each is a file `docs/exercises/NN.k.diff`, a [`Patch`]. [`super::attempt`] checks the claims in its fields
+//! by running the chapter; the list on the chapter's page is generated from these files.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -28,7 +28,7 @@ pub const FORM: &str = "write a title, a blank line, `Takes: shader`, `Minutes: 
 /// The kind of work an exercise needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
-    /// No edit: settings, eyes, and an answer.
+    /// No edits: settings, observation and an answer.
     Look,
     /// Edits of shaders alone.
     Shader,
@@ -65,9 +65,9 @@ pub struct Exercise {
     pub check: String,
     /// A hint.
     pub hint: String,
-    /// The lesson of the result.
+    /// The explanation of the result.
     pub why: Option<String>,
-    /// The answer, of one that takes only looking.
+    /// The answer, for an exercise that needs no edits.
     pub answer: Option<Answer>,
     /// The runs that prove it solved.
     pub steps: Vec<Step>,
@@ -78,7 +78,7 @@ pub struct Exercise {
 }
 
 impl Exercise {
-    /// Every exercise, by chapter and number, and what is wrong with the files.
+    /// All exercises, by chapter and number, and the faults found in their files.
     pub fn all(project: &Project) -> (Vec<Self>, Vec<Fault>) {
         let (mut exercises, faults): (Vec<Self>, _) =
             patch::all(project, FOLDER, |file, text| Self::parse(project, file, text));
@@ -94,11 +94,11 @@ impl Exercise {
         patch::whole(Self::all(project))
     }
 
-    /// The exercises that `05.2` or, all of a chapter, `05` means.
+    /// The exercises that `05.2` stands for, or all exercises of chapter `05`.
     ///
     /// # Errors
-    /// If the file of one of these is wrong, or there is none of this name; the line tells its new number, or
-    /// lists those that there are.
+    /// If the file of one of them is wrong, or there is no such exercise; the message gives its new number or
+    /// lists the existing ones.
     pub fn named(project: &Project, name: &str) -> Result<Vec<Self>> {
         let (chapter, number) = name.split_once('.').unwrap_or((name, ""));
         let chapter = project.chapter(chapter)?;
@@ -245,7 +245,7 @@ impl Exercise {
         self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
     }
 
-    /// The arguments of the first run of the program that is compared with the solution's, else of the first.
+    /// The arguments of the first run that is compared with the solution's, or of the first run if none is.
     pub fn target(&self) -> Option<&[String]> {
         let judged = |step: &&Step| {
             step.expectations.iter().any(|one| matches!(one, Expectation::AsSolution(_)))
@@ -257,7 +257,7 @@ impl Exercise {
         }
     }
 
-    /// The argument of its first run that holds the answer, unless the text names it anyway.
+    /// The argument of its first run that contains the answer, unless the text mentions it anyway.
     fn gives_itself_away(&self) -> Option<&str> {
         let Run::Program(arguments) = &self.steps.first()?.run else { return None };
         let value = |word: &str| word.split_once('=').map_or(word, |(_, value)| value).to_owned();
@@ -266,7 +266,7 @@ impl Exercise {
         told.find(|word| answer.accept(&value(word)) == Ok(true)).map(String::as_str)
     }
 
-    /// Its item in the list on its page. The answer to a question is folded away: one looks first.
+    /// Its item in the list on its page. The answer to a question is folded away.
     fn item(&self) -> String {
         let Self { number, patch, text, check, .. } = self;
         let (takes, time) = (self.takes(), self.time());
@@ -311,7 +311,7 @@ pub fn list(project: &Project, chapter: &Chapter) -> String {
     )
 }
 
-/// The faults of the files: a number left out, a diff that does not fit.
+/// The faults in the files: missing numbers, and diffs that do not apply.
 pub fn check(project: &Project) -> Vec<Fault> {
     let (exercises, mut faults) = Exercise::all(project);
     let there: BTreeSet<(&str, usize)> =
@@ -319,7 +319,7 @@ pub fn check(project: &Project) -> Vec<Fault> {
     for exercise in &exercises {
         let before = exercise.number.saturating_sub(1);
         let first = before == 0 && exercise.number == 1;
-        // A file that is no exercise has been told as that.
+        // A file that is not an exercise has already been reported.
         if faults.is_empty() && !first && !there.contains(&(&*exercise.chapter, before)) {
             let what = format!("there is no exercise {before} before this one");
             faults.push(Fault::new(&*exercise.patch.file, 1, what, "count from 1"));

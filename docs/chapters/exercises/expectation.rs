@@ -5,12 +5,12 @@ use std::fmt;
 use super::interval::Interval;
 use crate::programs::command_line::quoted;
 
-/// The forms of an expectation, as an error tells them to the author.
+/// The forms of an expectation, for error messages.
 pub const FORMS: &str = "write as the solution [but for 9 pixels], differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
     pixel X Y is R G B, pixels R G B: N [to M], largest a is N [to M], report KEY N [to M], says TEXT, \
     refused: TEXT, validation: TEXT, gone: CODE, passes, fails [with TEXT]";
 
-/// The book's picture, or the reader's own, with which a run's picture is compared.
+/// The picture to compare with: the book's, or another one of the reader's.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Other {
     /// True if the reader's code makes it.
@@ -34,13 +34,13 @@ impl fmt::Display for Other {
 /// A condition on a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
-    /// The picture is the solution's, but for some pixels: `None` for one of a thousand.
+    /// The picture is the solution's, except for this many pixels; `None` for one in a thousand.
     AsSolution(Option<usize>),
     /// The mean difference of the pictures over all channels in sRGB, of 1.
     DiffersBy(Interval, Other),
     /// The number of pixels that differ in 8 bits.
     DiffersIn(Interval, Other),
-    /// The pictures are the same: to the bit on a software driver, elsewhere but for its arithmetic.
+    /// The pictures are the same: bit for bit on a software driver, within its arithmetic on other devices.
     Same(Other),
     /// The 8-bit colour of a pixel, from the upper left.
     Pixel([u32; 2], [Interval; 3]),
@@ -52,17 +52,18 @@ pub enum Expectation {
     Number(String, Interval),
     /// The text at a dotted key of the report.
     Text(String, String),
-    /// A line that is printed holds this.
+    /// A printed line contains this.
     Says(String),
-    /// The program refuses by exit code 1 or 2, and a line holds this.
+    /// The program exits with code 1 or 2, and a line contains this.
     Refused(String),
-    /// A validation message holds this.
+    /// A validation message contains this.
     Validation(String),
-    /// Code that another way to the same picture leaves is no more in the files that the solution changes.
+    /// This code no longer occurs in the files the solution changes. Another way to the same picture would
+    /// leave it there.
     Gone(String),
     /// The tests pass.
     Passes,
-    /// A test fails, and what it says holds this.
+    /// A test fails, and its output contains this.
     Fails(String),
 }
 
@@ -77,7 +78,7 @@ fn channels(words: &[&str]) -> Option<[Interval; 3]> {
     found.try_into().ok()
 }
 
-/// The words behind `from` or `as`: arguments as in a shell.
+/// The words after `from` or `as`: arguments as in a shell.
 fn other(text: &str) -> Option<Other> {
     let mut arguments = shlex::split(text)?;
     let own = arguments.first().is_some_and(|word| word == "own");
@@ -88,7 +89,7 @@ fn other(text: &str) -> Option<Other> {
 }
 
 impl Expectation {
-    /// Reads one; `None` if it is none.
+    /// Parses an expectation; `None` if it has none of the forms.
     pub fn parse(text: &str) -> Option<Self> {
         type Of = fn(String) -> Expectation;
         let after =
@@ -154,13 +155,13 @@ impl Expectation {
         }
     }
 
-    /// Returns whether it is a condition on tests, not on a program's run.
+    /// Returns whether it is a condition on tests rather than on a run of the program.
     pub fn is_of_tests(&self) -> bool {
         matches!(self, Self::Passes | Self::Fails(_))
     }
 
-    /// Returns whether it repeats what the page says of the picture: the solution must meet it, and where a picture is
-    /// compared with the solution's, a reader's need not.
+    /// Returns whether it repeats the page's description of the picture. The solution must meet it; a
+    /// reader's picture need not if it is compared with the solution's.
     pub fn describes(&self) -> bool {
         matches!(
             self,
@@ -172,7 +173,7 @@ impl Expectation {
         )
     }
 
-    /// The picture that it compares with.
+    /// The picture to compare with.
     pub fn other(&self) -> Option<&Other> {
         match self {
             Self::DiffersBy(_, other) | Self::DiffersIn(_, other) | Self::Same(other) => {

@@ -1,4 +1,4 @@
-//! A short fingerprint of texts, which tells whether they are still the same.
+//! A short fingerprint of texts, used to detect changes.
 
 /// The FNV-1a hash of two texts in their order, in hexadecimal.
 pub fn fingerprint(parts: [&[u8]; 2]) -> String {

@@ -1,6 +1,6 @@
-//! Formulas as a terminal can show them: `$e^{-t/20}$` of a page is `e^(-t/20)` there.
+//! Formulas in plain text for a terminal: `$e^{-t/20}$` on a page becomes `e^(-t/20)`.
 
-/// The signs a terminal shows for commands of LaTeX. Any other command loses its `\`.
+/// The characters shown for LaTeX commands. Any other command only loses its `\`.
 const SIGNS: [(&str, &str); 10] = [
     ("cdot", "·"),
     ("times", "×"),
@@ -9,16 +9,16 @@ const SIGNS: [(&str, &str); 10] = [
     ("approx", "≈"),
     ("pi", "π"),
     ("sqrt", "√"),
-    // These only say how the next letter looks.
+    // These only change the look of the next letter.
     ("mathbf", ""),
     ("mathrm", ""),
     ("text", ""),
 ];
 
-/// A text in which each formula between two `$` is plain.
+/// Replaces each formula between two `$` by plain text.
 pub fn plain(text: &str) -> String {
     let parts: Vec<&str> = text.split('$').collect();
-    // A `$` without a second one is no formula.
+    // A `$` without a second one does not begin a formula.
     let closed = parts.len() - (parts.len() + 1) % 2;
     let plain = parts.iter().enumerate().map(|(index, part)| match index {
         _ if index >= closed => format!("${part}"),

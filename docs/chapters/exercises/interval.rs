@@ -1,4 +1,4 @@
-//! A number that is expected, or a range of them.
+//! An expected number or range of numbers.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// `A`, that number alone, or `A to B`; `None` if the words are neither.
+    /// Parses `A`, exactly that number, or `A to B`; `None` if the words are neither.
     pub fn exactly(words: &[&str]) -> Option<Self> {
         let (low, high) = match words {
             [only] => (number(only)?, number(only)?),
@@ -20,18 +20,18 @@ impl Interval {
         (low <= high).then_some(Self { low, high })
     }
 
-    /// `A`, that number or more, or `A to B`; `None` if the words are neither.
+    /// Parses `A`, that number or more, or `A to B`; `None` if the words are neither.
     pub fn at_least(words: &[&str]) -> Option<Self> {
         let amount = Self::exactly(words)?;
         Some(if words.len() == 1 { Self { high: f64::INFINITY, ..amount } } else { amount })
     }
 
-    /// Returns whether a number lies below all of them.
+    /// Returns whether a number is below the interval.
     pub fn below(self, number: f64) -> bool {
         number < self.low
     }
 
-    /// Returns whether a number is one of them.
+    /// Returns whether a number is in the interval.
     pub fn holds(self, number: f64) -> bool {
         (self.low..=self.high).contains(&number)
     }
@@ -47,7 +47,7 @@ impl fmt::Display for Interval {
     }
 }
 
-/// A number, with commas between thousands or without.
+/// Parses a number, with or without commas between thousands.
 pub fn number(word: &str) -> Option<f64> {
     let is_thousands =
         |group: &str| group.split('.').next().is_some_and(|digits| digits.len() == 3);

@@ -1,4 +1,4 @@
-//! An exercise's diff, made from what its author has edited.
+//! Makes an exercise's diff from its author's edits.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,12 +19,12 @@ const FOLDERS: [&str; 4] = ["common", "samples", "shaders", "tests"];
 /// A file before and after an edit; before it, there may be none.
 type Edited = BTreeMap<String, (Option<String>, String)>;
 
-/// Writes the diff of the exercise `name`, below what its file says already or below places to write it, and returns
-/// the file and the next steps. The edits are those of a copy of the shaders in `folder`, or else all in the project
-/// since the last commit.
+/// Writes the diff of the exercise `name`, below the existing text of its file or below placeholders, and
+/// returns the file and the next steps. The edits are those in a copy of the shaders in `folder`, or else all
+/// edits in the project since the last commit.
 ///
 /// # Errors
-/// If the name is none, or nothing was edited, or a file cannot be read or written.
+/// If the name is invalid, nothing was edited, or a file cannot be read or written.
 pub fn make(project: &Project, name: &str, folder: Option<&Path>) -> Result<String> {
     let wrong = || UsageError(format!("'{name}' is no exercise's name; write one such as 05.2"));
     let (chapter, number) = name.split_once('.').ok_or_else(wrong)?;
@@ -52,7 +52,7 @@ pub fn make(project: &Project, name: &str, folder: Option<&Path>) -> Result<Stri
     let text = format!("{}\n\n{}", head.trim_end(), diff(&edited));
     common::files::write_whole(&project.root.join(&file), text.as_bytes())?;
     let next = format!("cargo chapters exercise {}.{number} --prove\n", chapter.number());
-    // Where the solution has been made, its diff fits no more.
+    // The diff does not apply where the solution has been made.
     let undo = match folder {
         Some(_) => String::new(),
         None => {
@@ -71,7 +71,7 @@ pub fn make(project: &Project, name: &str, folder: Option<&Path>) -> Result<Stri
     Ok(format!("{file}\n\nNext:\n{undo}{next}"))
 }
 
-/// What stands above the diff of a new exercise.
+/// The text above the diff of a new exercise.
 fn head(shaders_alone: bool) -> String {
     let takes = if shaders_alone { "shader" } else { "Rust" };
     format!(

@@ -1,5 +1,5 @@
-//! The reason why an exercise is not solved: in a line, with the run that showed it and the pictures that were
-//! compared.
+//! The reason why an exercise is not solved: a line of text, the run that showed it, and the compared
+//! pictures.
 
 use std::fmt;
 
@@ -18,9 +18,9 @@ use crate::programs::run_result::RunResult;
 /// A result other than the expected one.
 #[derive(Default)]
 pub struct Mismatch {
-    /// In a line.
+    /// The description, in one line.
     pub what: String,
-    /// The arguments of the run that showed it; `None` if it was no run of a program.
+    /// The arguments of the run that showed it; `None` if it was not a run of a program.
     pub arguments: Option<Vec<String>>,
     /// A picture to look at beside it, and its description.
     pub beside: Option<(String, Picture)>,
@@ -43,7 +43,7 @@ impl From<String> for Mismatch {
 }
 
 impl Mismatch {
-    /// The line for a reader, with where the pictures lie: the run's own, and the one beside it.
+    /// The line for a reader, including the paths of the two pictures.
     pub fn told(&self, own: &str, other: &str) -> String {
         match &self.beside {
             Some((with, _)) => format!("{self}: yours {own}, {with} {other}"),
@@ -54,11 +54,12 @@ impl Mismatch {
 }
 
 impl Expectation {
-    /// The result of a run that does not meet it; `other` is the picture to compare with, and `near` tells,
-    /// if called, how far two pictures that are the same may be apart: by no bit, if it tells nothing.
+    /// Checks a run against the expectation, and describes the mismatch if there is one. `other` is the
+    /// picture to compare with; `near`, called only when needed, returns the tolerance for equal pictures, or
+    /// `None` for bitwise equality.
     ///
     /// # Errors
-    /// If there is no picture, or the other is of another size.
+    /// If a picture is missing, or the sizes differ.
     pub fn missed(
         &self,
         seen: &RunResult,
@@ -173,7 +174,7 @@ impl Expectation {
         }
     }
 
-    /// The result of tests that do not meet it.
+    /// Checks the result of tests, and describes the mismatch if there is one.
     pub fn missed_by_tests(&self, tested: &Tested) -> Option<String> {
         match self {
             Self::Passes => (tested.failed > 0).then(|| format!("{} tests fail", tested.failed)),
@@ -186,8 +187,8 @@ impl Expectation {
     }
 }
 
-/// One pixel of so many may differ from the solution's: a colour that is computed in another order is off by about
-/// 1e-6, and crosses a step of 255 in fewer.
+/// One pixel in this many may differ from the solution's: computing a colour in another order changes it by
+/// about 1e-6, which crosses a step of 1/255 in fewer pixels.
 const ROUNDED: usize = 1000;
 
 /// The number of pixels that differ, in words.
@@ -237,14 +238,14 @@ mod tests {
         RunResult { picture: Some(picture()), status: Some(status), said, told, report }
     }
 
-    /// Checks it against a picture of which one pixel is black.
+    /// Tests it against a picture with one black pixel.
     fn holds(text: &str) -> bool {
         let expectation = Expectation::parse(text).unwrap_or_else(|| panic!("{text}"));
         let as_solution = matches!(expectation, Expectation::AsSolution(_));
         let other = expectation.other().cloned().or(as_solution.then(Other::default));
         let other = other.map(|other| {
             let mut picture = picture();
-            // Called by arguments, the pictures are the same.
+            // With arguments, the pictures are the same.
             if other.arguments.is_none() {
                 picture.pixels[1] = [0.0; 4];
             }
@@ -284,7 +285,7 @@ mod tests {
         }
     }
 
-    /// Another device's arithmetic may change a pixel beside an edge, and no more than a few.
+    /// Another device's arithmetic may change a few pixels beside an edge, but no more.
     #[test]
     fn what_is_the_same_may_be_off_by_arithmetic_where_that_is_allowed() {
         let same = Expectation::parse("same").unwrap();

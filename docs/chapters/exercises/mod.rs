@@ -1,4 +1,5 @@
-//! Exercises: a reader solves one in a [`workbench`], and an [`attempt`] is held to what the exercise expects.
+//! Exercises: a reader solves one in a [`workbench`], and an [`attempt`] checks it against the exercise's
+//! expectations.
 
 pub mod answer;
 pub mod attempt;

@@ -1,4 +1,4 @@
-//! Exercises that have another number since their chapter was split: `"exercise 08.5" = "42.2"` in `docs/moved.toml`.
+//! Exercises renumbered when their chapter was split: `"exercise 08.5" = "42.2"` in `docs/moved.toml`.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,17 @@ use manuscript::project::Project;
 
 use super::exercise::Exercise;
 
-/// The file that lists them, beside the places of pages that have moved.
+/// The file that lists them, together with the moved pages.
 const FILE: &str = "docs/moved.toml";
 
-/// The first word of an exercise's line; other lines are places of pages.
+/// The first word of an exercise's line; the other lines are moved pages.
 const WORD: &str = "exercise ";
 
 /// The new number of each moved exercise, by its old one.
 pub struct Moved(BTreeMap<String, String>);
 
 impl Moved {
-    /// The project's moved exercises; none if the file is missing. The website reports a file that is damaged.
+    /// Reads the project's moved exercises; none if the file is missing. The website reports a damaged file.
     pub fn read(project: &Project) -> Self {
         Self::of(&project.read(FILE).unwrap_or_default())
     }
@@ -33,7 +33,7 @@ impl Moved {
         self.0.get(old).map(String::as_str)
     }
 
-    /// Faults of lines that lead to no exercise.
+    /// The faults of lines whose new number does not exist.
     pub fn check(&self, project: &Project, exercises: &[Exercise]) -> Vec<Fault> {
         let text = project.read(FILE).unwrap_or_default();
         let names: Vec<String> = exercises.iter().map(Exercise::to_string).collect();

@@ -1,4 +1,4 @@
-//! The exercises a reader has solved so far, in a file of the reader's.
+//! The exercises a reader has solved, stored in a file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::exercise::Exercise;
 
-/// The names of the exercises that are solved, and how often others have failed.
+/// The names of the solved exercises, and the number of failures of the others.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Solved {
@@ -22,7 +22,7 @@ struct Solved {
     failures: BTreeMap<String, usize>,
 }
 
-/// After how many failures a reader may see the target.
+/// The number of failures after which a reader may see the target.
 const FAILURES: usize = 2;
 
 /// A reader's progress.
@@ -32,7 +32,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Reads it. A file that is damaged is told in a line, and counts as none.
+    /// Reads it. A damaged file is reported in one line and counts as empty.
     pub fn open(project: &Project) -> Self {
         let file = project.root.join("target/exercises/progress.json");
         let solved = read(&file).unwrap_or_else(|| {
@@ -48,10 +48,10 @@ impl Progress {
         self.solved.solved.contains(&exercise.to_string())
     }
 
-    /// Notes that an exercise is solved.
+    /// Records that an exercise is solved.
     ///
     /// # Errors
-    /// If that cannot be written.
+    /// If the file cannot be written.
     pub fn note(&mut self, exercise: &Exercise) -> Result<()> {
         self.change(|progress| {
             progress.solved.insert(exercise.to_string());
@@ -71,17 +71,18 @@ impl Progress {
     /// Counts a failure.
     ///
     /// # Errors
-    /// If that cannot be written.
+    /// If the file cannot be written.
     pub fn count_failure(&mut self, exercise: &Exercise) -> Result<()> {
         self.change(|progress| *progress.failures.entry(exercise.to_string()).or_default() += 1)
     }
 
-    /// Changes what the file holds now: another exercise may be worked on beside this one.
+    /// Re-reads the file before the change: another exercise may be in progress at the same time.
     fn change(&mut self, change: impl FnOnce(&mut Solved)) -> Result<()> {
         let folder = self.file.parent().unwrap_or(&self.file);
         fs::create_dir_all(folder)
             .with_context(|| format!("cannot make '{}'", folder.display()))?;
-        // A file of its own is locked: the other is replaced as a whole. Closing it ends the lock.
+        // The lock is a separate file, because the other one is replaced as a whole. Closing it releases the
+        // lock.
         let lock = File::create(folder.join("lock")).context("cannot make a lock")?;
         lock.lock().context("cannot wait for a lock")?;
         self.solved = read(&self.file).unwrap_or_default();

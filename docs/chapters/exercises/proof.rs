@@ -1,4 +1,4 @@
-//! A step of the proof that an exercise is solved: what is run, and what must hold of it.
+//! One step of the check that an exercise is solved: a run and its conditions.
 
 use manuscript::fault::Fault;
 
@@ -8,7 +8,7 @@ use crate::patches::patch::Field;
 /// The size of pictures where a run gives none.
 const SIZE: [&str; 2] = ["--size", "160x100"];
 
-/// Arguments that the tool gives itself.
+/// Arguments that the tool adds itself.
 const GIVEN: [&str; 4] = ["--headless", "--validate", "--out", "--report"];
 
 /// The program or the tests that a step runs.
@@ -16,11 +16,11 @@ const GIVEN: [&str; 4] = ["--headless", "--validate", "--out", "--report"];
 pub enum Run {
     /// The chapter's program with these arguments.
     Program(Vec<String>),
-    /// The tests of a test program whose names hold a filter.
+    /// The tests of a test program whose names contain a filter.
     Test(String, String),
 }
 
-/// A run, and what must hold of it.
+/// A run and its conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The program or the tests to run.
@@ -29,7 +29,7 @@ pub struct Step {
     pub expectations: Vec<Expectation>,
 }
 
-/// The runs and what must hold of each.
+/// Parses the runs and the conditions of each.
 pub fn steps(file: &str, fields: Vec<Field>) -> Result<Vec<Step>, Fault> {
     let mut steps: Vec<Step> = Vec::new();
     for Field { line, key, value } in fields {
@@ -78,7 +78,7 @@ fn arguments(text: &str) -> Option<Vec<String>> {
     shlex::split(text).map(sized)
 }
 
-/// Arguments with the usual size where they give none.
+/// Adds the usual size to arguments that contain none.
 pub fn sized(mut arguments: Vec<String>) -> Vec<String> {
     if !arguments.iter().any(|word| word == "--size" || word.starts_with("--size=")) {
         arguments.extend(SIZE.map(str::to_owned));

@@ -1,4 +1,4 @@
-//! The pictures of an exercise's solution, rendered on this device: what a reader's are compared with.
+//! The pictures of an exercise's solution, rendered on this device, to compare a reader's with.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ use crate::patches::edition::{Edition, Patched};
 use crate::programs::program::Programs;
 use crate::programs::run_result::RunResult;
 
-/// The solution of an exercise, made when it is asked for.
+/// The solution of an exercise, built on demand.
 pub struct Solution<'a> {
     programs: &'a Programs<'a>,
     exercise: &'a Exercise,
@@ -27,18 +27,18 @@ pub struct Solution<'a> {
 }
 
 impl<'a> Solution<'a> {
-    /// One whose pictures are rendered when they are asked for.
+    /// Renders the pictures on demand.
     pub fn new(programs: &'a Programs<'a>, exercise: &'a Exercise) -> Self {
         let (patched, known) = (OnceCell::new(), RefCell::default());
         Self { programs, exercise, kept: None, patched, known }
     }
 
-    /// One whose pictures lie in a folder.
+    /// Reads the pictures from a folder.
     pub fn kept(programs: &'a Programs<'a>, exercise: &'a Exercise, folder: &Path) -> Self {
         Self { kept: Some(folder.to_owned()), ..Self::new(programs, exercise) }
     }
 
-    /// Renders all that a reader is compared with into a folder.
+    /// Renders every picture a reader's is compared with into a folder.
     ///
     /// # Errors
     /// If one cannot be rendered or written.
@@ -53,10 +53,10 @@ impl<'a> Solution<'a> {
         Ok(())
     }
 
-    /// The code with the solution in it.
+    /// The code with the solution applied.
     ///
     /// # Errors
-    /// If it does not fit, or cannot be written.
+    /// If it does not apply, or cannot be written.
     pub fn edition(&self) -> Result<&Edition> {
         if let Some(patched) = self.patched.get() {
             return Ok(&patched.edition);
@@ -65,7 +65,7 @@ impl<'a> Solution<'a> {
         Ok(&self.patched.get_or_init(|| patched).edition)
     }
 
-    /// Its picture with some arguments.
+    /// The solution's picture with these arguments.
     ///
     /// # Errors
     /// If there is none.

@@ -1,4 +1,4 @@
-//! Variants of a solution, each with one number that is wrong: the check must refuse them.
+//! Variants of a solution, each with one wrong number. The check must reject them.
 
 use std::fmt;
 
@@ -51,7 +51,8 @@ impl fmt::Display for Change {
     }
 }
 
-/// Variants that give the same picture, as the exercise's file says: `Same: 2.0 halved, doubled because …`.
+/// Variants that leave the picture unchanged, as declared in the exercise's file: `Same: 2.0 halved, doubled
+/// because …`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exempt {
     number: String,
@@ -59,7 +60,7 @@ pub struct Exempt {
 }
 
 impl Exempt {
-    /// Reads them, one for each change.
+    /// Parses them, one per change.
     ///
     /// # Errors
     /// If there is none.
@@ -126,7 +127,7 @@ fn variants(exercise: &Exercise) -> Result<Vec<Variant>, Fault> {
     Ok(found)
 }
 
-/// The numbers of a line of a shader, each with where it stands.
+/// The numbers in a line of a shader, each with its position.
 fn numbers(code: &str) -> Vec<(usize, &str)> {
     let bytes = code.as_bytes();
     let is_name = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'.';
@@ -149,7 +150,7 @@ fn numbers(code: &str) -> Vec<(usize, &str)> {
     found
 }
 
-/// A number as it is written, changed; `None` if that changes nothing.
+/// The number with the change applied, written in the same form; `None` if that changes nothing.
 fn changed(number: &str, change: Change) -> Option<String> {
     let plain = number.trim_end_matches(['u', 'U']);
     let unsigned = &number[plain.len()..];
@@ -164,10 +165,10 @@ fn changed(number: &str, change: Change) -> Option<String> {
     (!same && !zero).then_some(signed)
 }
 
-/// Holds the check of an exercise to its variants; the line tells how many there are.
+/// Runs an exercise's check on every variant; the returned line counts them.
 ///
 /// # Errors
-/// If one is accepted of which the file does not say that it is the same, or is refused though it does.
+/// If a variant is accepted that the file does not declare as the same, or a declared one is rejected.
 pub fn prove(programs: &Programs, originals: &Originals, exercise: &Exercise) -> Result<String> {
     let solution = &Solution::new(programs, exercise);
     let attempt = Attempt { programs, originals, exercise, solution };

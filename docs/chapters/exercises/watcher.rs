@@ -1,4 +1,4 @@
-//! Folders whose files a reader edits: who waits is told when one is saved.
+//! Watches folders for files that a reader saves.
 
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
@@ -12,30 +12,30 @@ use anyhow::Result;
 use crate::patches::copy::files_below;
 use crate::programs::interrupt;
 
-/// The time between two looks.
+/// The polling interval.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// Folders that are watched.
+/// The watched folders.
 pub struct FolderWatcher {
     folders: Vec<PathBuf>,
     last: Option<u64>,
 }
 
 impl FolderWatcher {
-    /// Watches some folders and all below them.
+    /// Watches these folders and their subfolders.
     pub fn of(folders: Vec<PathBuf>) -> Self {
         Self { folders, last: None }
     }
 
-    /// Waits until a file has been saved since the last time; the first time there is nothing to wait for.
+    /// Waits until a file has been saved since the last call; the first call returns at once.
     ///
     /// # Errors
-    /// If a signal asks for the end.
+    /// If a signal requests termination.
     pub fn wait(&mut self) -> Result<()> {
         let mut before = None;
         loop {
             let now = Some(self.saved());
-            // Editors save in several steps; look once they are done.
+            // Editors save in several steps: wait until the files are stable.
             if now != self.last && (now == before || self.last.is_none()) {
                 self.last = now;
                 return Ok(());

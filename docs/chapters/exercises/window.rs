@@ -1,4 +1,4 @@
-//! A chapter's window beside the tool.
+//! A chapter's window, opened by the tool.
 
 use std::process::{Child, Command, Stdio};
 
@@ -8,11 +8,11 @@ use time_limit::Limit;
 
 use crate::programs::child;
 
-/// A chapter's window, closed with its owner.
+/// A chapter's window, closed on drop.
 pub struct Window(Child);
 
 impl Window {
-    /// Opens it by a command.
+    /// Opens the window by running a command.
     ///
     /// # Errors
     /// If it does not start.
@@ -24,7 +24,7 @@ impl Window {
     /// Waits until the reader closes it.
     ///
     /// # Errors
-    /// If a signal asks for our end, or the system does not tell of the window's.
+    /// If a signal requests termination, or waiting for the window fails.
     pub fn closed(mut self) -> Result<()> {
         if self.0.try_wait()?.is_none() {
             print("Close the window to end.\n")?;
@@ -35,7 +35,7 @@ impl Window {
 
 impl Drop for Window {
     fn drop(&mut self) {
-        // One that has ended already needs no end.
+        // It may have ended already.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }

@@ -1,5 +1,5 @@
-//! A reader's place to solve an exercise in: a copy of the shaders or the project itself, checked on each
-//! save, with the chapter's window beside it.
+//! The place in which a reader solves an exercise: a copy of the shaders, or the project itself. It is
+//! checked on each save, with the chapter's window open.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,17 +27,17 @@ use crate::programs::program::Programs;
 pub struct Workbench<'a> {
     programs: &'a Programs<'a>,
     exercise: &'a Exercise,
-    /// The copy of the shaders; for Rust code where the book's pictures are kept.
+    /// The copy of the shaders; for Rust code, the folder of the book's pictures.
     folder: PathBuf,
-    /// The folder as the reader has named it.
+    /// The folder as the reader wrote it.
     shown: String,
 }
 
 impl<'a> Workbench<'a> {
-    /// The place of an exercise, which is made by [`Workbench::set_up`].
+    /// The place for an exercise; [`Workbench::set_up`] creates it.
     ///
     /// # Errors
-    /// If the folder cannot be one, or the exercise needs none.
+    /// If the folder cannot be used, or the exercise needs none.
     pub fn new(
         programs: &'a Programs<'a>,
         exercise: &'a Exercise,
@@ -67,17 +67,17 @@ impl<'a> Workbench<'a> {
         Ok(Self { programs, exercise, folder, shown })
     }
 
-    /// Makes the place, unless it is there: then the reader's edits are gone on with. Returns whether it was.
+    /// Creates the place, or continues with the reader's edits if it exists. Returns whether it existed.
     ///
     /// # Errors
-    /// If it cannot be made, holds something else, or the chapter's program is not built.
+    /// If it cannot be created, contains something else, or the chapter's program is not built.
     pub fn set_up(&self) -> Result<bool> {
         let project = self.programs.project;
         let built = || self.programs.built(&self.exercise.chapter);
         match self.exercise.takes {
             Takes::Look => {
                 built()?;
-                // Where the command that is told writes its picture.
+                // The folder in which the printed command writes its picture.
                 fs::create_dir_all(project.root.join("target/exercises"))?;
                 Ok(true)
             }
@@ -102,7 +102,7 @@ impl<'a> Workbench<'a> {
                 let failed = || format!("cannot make '{}'", self.shown);
                 let above = self.folder.parent().with_context(failed)?;
                 fs::create_dir_all(above).with_context(failed)?;
-                // Copied beside it and then renamed: the folder is there whole or not at all.
+                // Copied next to it and then renamed, so that the folder is never incomplete.
                 let whole = tempfile::tempdir_in(above).with_context(failed)?;
                 copy_shaders(project, whole.path(), &Changed::new())?;
                 fs::rename(whole.keep(), &self.folder).with_context(failed)?;
@@ -126,7 +126,7 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    /// The folder of the book's pictures, from before its own files were edited.
+    /// The folder of the book's pictures from before its own files were edited.
     fn kept(&self) -> PathBuf {
         self.folder.join("book")
     }
@@ -139,7 +139,7 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    /// The files to edit, in lines for the reader.
+    /// The list of files to edit, as printed for the reader.
     pub fn introduction(&self) -> String {
         let project = self.programs.project;
         let shader = self.exercise.takes == Takes::Shader;
@@ -172,8 +172,8 @@ impl<'a> Workbench<'a> {
         lines.iter().map(|line| format!("{line}\n")).collect()
     }
 
-    /// The command by which a reader makes the first picture without a window: that which is checked, or of what
-    /// takes only looking one in the usual size. `None` where only tests run.
+    /// The command that renders the reader's first picture without a window: that of the checked run, or for
+    /// an exercise without edits a run in the usual size. `None` if the exercise only runs tests.
     pub fn render(&self) -> Option<String> {
         let look = self.exercise.takes == Takes::Look;
         let mut words = if look { self.look() } else { self.first_run()?.to_vec() };
@@ -196,7 +196,7 @@ impl<'a> Workbench<'a> {
         format!("{}.other.png", self.shown)
     }
 
-    /// Renders the solution beside the reader's picture, and tells where.
+    /// Renders the solution next to the reader's picture, and returns the path.
     ///
     /// # Errors
     /// If it cannot be rendered or written.
@@ -207,10 +207,10 @@ impl<'a> Workbench<'a> {
         Ok(shown)
     }
 
-    /// The reason why the exercise is not solved, in a line; keeps the pictures beside the folder.
+    /// The reason why the exercise is not solved, in one line; keeps the pictures next to the folder.
     ///
     /// # Errors
-    /// If it cannot be told.
+    /// If there is no verdict.
     pub fn missed(&self) -> Result<Option<String>> {
         self.missed_with(&self.originals(), &self.solution())
     }
@@ -222,7 +222,8 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    /// The solution; of Rust code the pictures that were kept, for it fits no edited code.
+    /// The solution. For Rust code these are the kept pictures, because its patch does not apply to edited
+    /// code.
     fn solution(&self) -> Solution<'a> {
         match self.exercise.takes {
             Takes::File | Takes::Rust => Solution::kept(self.programs, self.exercise, &self.kept()),
@@ -242,13 +243,13 @@ impl<'a> Workbench<'a> {
         }
         match missed.as_ref().and_then(|missed| missed.beside.as_ref()) {
             Some((_, picture)) => picture.save(&other)?,
-            // It may lie there from the save before.
+            // It may be left over from the previous save.
             None => drop(fs::remove_file(&other)),
         }
         Ok(missed.map(|missed| missed.told(&self.own_picture(), &self.other_picture())))
     }
 
-    /// Checks on each save, a line each, until the exercise is solved.
+    /// Checks on each save until the exercise is solved, and prints one line per check.
     ///
     /// # Errors
     /// If the window does not start, or the progress cannot be written.
@@ -265,7 +266,7 @@ impl<'a> Workbench<'a> {
         let mut window = with_window.then(|| self.window()).transpose()?;
         loop {
             watcher.wait()?;
-            // A program that runs cannot be built anew everywhere.
+            // Some systems cannot rebuild a program while it runs.
             let again = self.exercise.takes != Takes::Shader && window.take().is_some();
             let missed = self
                 .missed_with(&originals, &solution)
@@ -277,7 +278,7 @@ impl<'a> Workbench<'a> {
             match missed {
                 None => break,
                 Some(missed) => {
-                    // What lies there at first is no attempt.
+                    // The initial state does not count as an attempt.
                     if !first {
                         progress.count_failure(self.exercise)?;
                     }
@@ -292,7 +293,7 @@ impl<'a> Workbench<'a> {
         window.map_or(Ok(()), Window::closed)
     }
 
-    /// Opens the chapter's window with what the first run sets.
+    /// Opens the chapter's window with the settings of the first run.
     ///
     /// # Errors
     /// If it does not start.
@@ -301,7 +302,7 @@ impl<'a> Workbench<'a> {
         Window::open(command?.args(self.settings()))
     }
 
-    /// The arguments of the first run that are of use in a window.
+    /// The arguments of the first run that apply to a window.
     fn settings(&self) -> Vec<String> {
         let mut words = self.first_run().into_iter().flatten();
         let mut settings = Vec::new();
@@ -314,7 +315,7 @@ impl<'a> Workbench<'a> {
         settings
     }
 
-    /// The arguments of the first run, in the size that the text names, or else in the usual one.
+    /// The arguments of the first run, with the size that the text mentions, or else the usual one.
     fn look(&self) -> Vec<String> {
         let mut words = self.first_run().unwrap_or_default().to_vec();
         if let Some(at) = words.iter().position(|word| word == "--size") {
@@ -339,7 +340,7 @@ impl<'a> Workbench<'a> {
     /// Applies the solution to the reader's place, and returns the files that it changes.
     ///
     /// # Errors
-    /// If it does not fit there any more, or cannot be written.
+    /// If it no longer applies there, or cannot be written.
     pub fn apply(&self) -> Result<Vec<String>> {
         let below = |file: &str| match self.exercise.takes {
             Takes::Shader => self.folder.join(file.trim_start_matches("shaders/")),
@@ -365,7 +366,7 @@ impl<'a> Workbench<'a> {
 
 /// The lines to print once an exercise is solved.
 pub fn solved(exercise: &Exercise) -> String {
-    // Who has answered has read it.
+    // A reader who has answered has read the text.
     let check = match exercise.takes {
         Takes::Look => String::new(),
         _ => format!("Check: {}\n", plain(&exercise.check)),

@@ -1,4 +1,4 @@
-//! `cargo chapters mistake`: what a reader, or an author, asks of a mistake.
+//! `cargo chapters mistake`: the commands for readers and authors of mistakes.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::programs::program::Programs;
 /// Lists mistakes, makes a patched copy, or checks them.
 ///
 /// # Errors
-/// If there is none of the name, the copy cannot be made, or one is not what its file says.
+/// If there is no mistake of that name, the copy cannot be made, or a mistake does not match its file.
 pub fn run(
     project: &Project,
     name: Option<&str>,

@@ -1,4 +1,4 @@
-//! A classic mistake: a small patch to a chapter, and what it does to the picture.
+//! A classic mistake: a small patch to a chapter and its effect on the picture.
 //!
 //! Each is a file `docs/mistakes/NAME.diff`, a [`Patch`].
 //! A run of the patched chapter checks the claims of the fields ([`super::reproduction`]).
@@ -26,15 +26,16 @@ const FORM: &str = "write a title, a blank line, `Symptom: WORDS`, `Chapter: NN_
 /// The effect of a mistake.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// Pixels differ from the right ones by at least so much, of 1: the mean over all channels, in sRGB.
+    /// Pixels differ from the right ones by at least this much, on a scale of 0 to 1: the mean over all
+    /// channels, in sRGB.
     Differs(f64),
-    /// The same picture takes at least so many times as long.
+    /// The same picture takes at least this many times as long.
     Slower(f64),
-    /// The program refuses to start, with a line that holds this.
+    /// The program refuses to start, with a line that contains this.
     Refused(String),
     /// A signal ends the program, or it does not end.
     Crashes,
-    /// The picture is the same, and only validation tells.
+    /// The picture is the same, and only validation reports the mistake.
     Forgiven,
 }
 
@@ -59,7 +60,7 @@ pub struct Mistake {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// The symptom: a word that it is sorted by, a colon, and a few more.
+    /// The symptom: a word to sort by, a colon, and a few more words.
     pub symptom: String,
     /// The chapter that makes it.
     pub chapter: String,
@@ -67,12 +68,12 @@ pub struct Mistake {
     pub arguments: String,
     /// Its effect.
     pub outcome: Outcome,
-    /// The words in every validation message; `None` if there is none.
+    /// The words that occur in every validation message; `None` if there is no message.
     pub validation: Option<String>,
-    /// The behaviour Vulkan leaves undefined here, if any: a GPU may stop, or its system, so the mistake is tried on a
-    /// software driver alone.
+    /// The behaviour Vulkan leaves undefined here, if any. A GPU or its system may hang, so the mistake is
+    /// only run on a software driver.
     pub undefined: Option<String>,
-    /// The memory it reads that nobody wrote, if any: its picture differs from run to run.
+    /// The uninitialised memory it reads, if any: its picture differs from run to run.
     pub unwritten: Option<String>,
     /// The reason why the picture is wrong.
     pub cause: String,
@@ -85,12 +86,12 @@ pub struct Mistake {
 }
 
 impl Mistake {
-    /// Every mistake, by name, and what is wrong with the files.
+    /// All mistakes, by name, and the faults in their files.
     pub fn all(project: &Project) -> (Vec<Self>, Vec<Fault>) {
         patch::all(project, FOLDER, |file, text| Self::parse(project, file, text))
     }
 
-    /// Every mistake, by name.
+    /// All mistakes, by name.
     ///
     /// # Errors
     /// If a file is wrong.
@@ -101,7 +102,7 @@ impl Mistake {
     /// The mistake of this name.
     ///
     /// # Errors
-    /// If there is none; the line lists those that there are.
+    /// If there is none; the message lists the existing ones.
     pub fn named(project: &Project, name: &str) -> Result<Self> {
         let mistakes = Self::whole(project)?;
         let names: Vec<String> = mistakes.iter().map(|mistake| mistake.name.clone()).collect();
@@ -175,7 +176,7 @@ impl Mistake {
         format!("cargo chapters mistake {}", self.name)
     }
 
-    /// Returns whether it changes shaders alone: then the built program shows it.
+    /// Returns whether it changes only shaders; then the built program can show it.
     pub fn is_in_shaders(&self) -> bool {
         self.patch.is_in_shaders()
     }
@@ -183,15 +184,15 @@ impl Mistake {
     /// The contents of the patched files.
     ///
     /// # Errors
-    /// If a hunk's lines do not stand in its file, once.
+    /// If a hunk's lines do not occur exactly once in its file.
     pub fn patched(&self, project: &Project) -> Result<BTreeMap<String, String>, Fault> {
         self.patch.patched_in(project)
     }
 
-    /// Makes a patched copy in an empty folder: of the shaders, or of all that a build needs.
+    /// Makes a patched copy in an empty folder: of the shaders, or of everything a build needs.
     ///
     /// # Errors
-    /// If the patch does not fit, the folder holds something, or it cannot be written.
+    /// If the patch does not apply, the folder is not empty, or it cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
         let refused = |path: &Path, what: &str| {
             UsageError(format!("'{}' {what}; name another folder with --out", path.display()))
@@ -208,7 +209,8 @@ impl Mistake {
         Ok(())
     }
 
-    /// The command that runs a patched copy, for a reader: what is undefined, on the software driver.
+    /// The command that runs a patched copy, for a reader; on the software driver if the behaviour is
+    /// undefined.
     pub fn run(&self, folder: &Path) -> String {
         let (bin, folder) = (&self.chapter, folder.display());
         let device = self.undefined.as_ref().map_or("", |_| "--device llvmpipe");
@@ -259,7 +261,7 @@ pub fn gallery(project: &Project) -> String {
     sections.join("\n")
 }
 
-/// A table of every mistake by what is seen: like symptoms stand together.
+/// A table of all mistakes, sorted by symptom.
 pub fn symptoms(project: &Project) -> String {
     let mut mistakes = Mistake::all(project).0;
     mistakes.sort_by_key(|mistake| mistake.symptom.to_lowercase());

@@ -1,4 +1,5 @@
-//! Classic mistakes: patches that make a chapter wrong, reproduced and held to what their files claim.
+//! Classic mistakes: patches that make a chapter wrong, reproduced and compared with the claims in their
+//! files.
 
 pub mod command;
 pub mod mistake;

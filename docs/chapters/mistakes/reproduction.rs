@@ -1,4 +1,4 @@
-//! A mistake held to its word: the chapter is run as it is and patched, and both are compared.
+//! Reproduces a mistake: runs the chapter with and without the patch, and compares the two.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
@@ -18,12 +18,12 @@ use crate::programs::run_result::{RunResult, is_software};
 
 /// The size of a mistake's picture.
 const SHOWN: (u32, u32) = (320, 200);
-/// Its size where only the comparison counts.
+/// The size when pictures are only compared.
 const COMPARED: (u32, u32) = (160, 100);
 
 /// The longest time of a program.
 const LIMIT: Limit = Limit::worked(40);
-/// Its longest time where the mistake may keep it from ending.
+/// The longest time of a program that the mistake may keep from ending.
 const UNTIL_CRASHED: Limit = Limit::worked(10);
 
 /// A mistake, and the runs that show it.
@@ -38,10 +38,10 @@ impl<'a> Reproduction<'a> {
         Self { programs, mistake }
     }
 
-    /// The effect of the mistake, in a line.
+    /// Checks the effect of the mistake, and describes it in one line.
     ///
     /// # Errors
-    /// If that is not what its file says.
+    /// If it differs from the claims in its file.
     pub fn check(&self) -> Result<String> {
         let right = self.right(COMPARED)?;
         if let Some(why) = self.not_tried(right.device())? {
@@ -51,8 +51,8 @@ impl<'a> Reproduction<'a> {
         self.compare(&right, &wrong)
     }
 
-    /// Renders its picture into its file, unless that has the same pixels already; returns its maker, and whether
-    /// the file has changed.
+    /// Renders its picture into its file, unless the file already has the same pixels; returns its maker, and
+    /// whether the file has changed.
     ///
     /// # Errors
     /// As [`Reproduction::make`], or if the file cannot be written.
@@ -67,7 +67,7 @@ impl<'a> Reproduction<'a> {
     /// Renders its picture into a file of a folder, and returns that file and its maker.
     ///
     /// # Errors
-    /// If it does not do what its file says.
+    /// If the effect differs from the claims in its file.
     pub fn make(&self, folder: &Path) -> Result<(PathBuf, Maker)> {
         let right = self.right(SHOWN)?;
         if let Some(why) = self.not_tried(right.device())? {
@@ -78,7 +78,7 @@ impl<'a> Reproduction<'a> {
         let label =
             |word: &str, seen: &RunResult| match (&self.mistake.outcome, &seen.messages()[..]) {
                 (Outcome::Slower(_), _) => format!("{word}: {:.0} ms", seen.milliseconds()),
-                // The pictures are the same: all that differs is what validation says.
+                // The pictures are the same; only the validation messages differ.
                 (Outcome::Forgiven, [_, ..]) => {
                     format!("{word}: {}", self.mistake.validation.as_deref().unwrap_or_default())
                 }
@@ -113,7 +113,8 @@ impl<'a> Reproduction<'a> {
         self.run(&wrong.edition, size)
     }
 
-    /// The reason why the mistake is not made on this device, if it is undefined and no software driver is asked.
+    /// The reason why the mistake is not run on this device, if its behaviour is undefined and the device is
+    /// not a software driver.
     fn not_tried(&self, device: &str) -> Result<Option<String>> {
         let Mistake { name, chapter, undefined, .. } = self.mistake;
         let Some(what) = undefined else { return Ok(None) };
@@ -131,7 +132,7 @@ impl<'a> Reproduction<'a> {
         RunResult::of(command, &arguments, if may_hang { UNTIL_CRASHED } else { LIMIT })
     }
 
-    /// Holds two runs to what the mistake claims; the line says what was seen.
+    /// Compares two runs with the mistake's claims; the returned line says what was seen.
     fn compare(&self, right: &RunResult, wrong: &RunResult) -> Result<String> {
         let Mistake { name, outcome, validation, .. } = self.mistake;
         let file = self.mistake.file();
@@ -156,7 +157,7 @@ impl<'a> Reproduction<'a> {
                 "refused".to_owned()
             }
             Outcome::Crashes => {
-                // The program says so itself, unless RUST_BACKTRACE leaves it to the system.
+                // The program prints this itself, unless RUST_BACKTRACE leaves the crash to the system.
                 let ended = wrong.status.is_some_and(|status| status.code().is_some());
                 let crashed = !ended || wrong.said.contains("crashed (SIG");
                 ensure!(crashed, "{file}: no crash: {}", end(wrong.status));
@@ -190,7 +191,7 @@ impl<'a> Reproduction<'a> {
     }
 }
 
-/// The end of a program, in words.
+/// Describes how a program ended.
 fn end(status: Option<ExitStatus>) -> String {
     match status {
         Some(status) => format!("the program ends by {status}"),

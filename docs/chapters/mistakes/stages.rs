@@ -1,4 +1,5 @@
-//! The stages that a mistake's patch changes: each must compile, or the program shows no picture to find it by.
+//! The stages that a mistake's patch changes. Each must compile, or the program shows no picture to find the
+//! mistake by.
 
 use common::gpu::shader::StageText;
 use manuscript::fault::Fault;
@@ -7,8 +8,8 @@ use manuscript::shader;
 
 use super::mistake::Mistake;
 
-/// The faults of a mistake's patch: it does not fit, changes no stage of its chapter, or leaves one that does
-/// not compile.
+/// The faults of a mistake's patch: it does not apply, changes no stage of its chapter, or leaves one that
+/// does not compile.
 pub fn check(project: &Project, mistake: &Mistake) -> Vec<Fault> {
     let patched = match mistake.patched(project) {
         Ok(patched) => patched,

@@ -24,7 +24,7 @@ const CONTEXT: usize = 2;
 /// The text of a page's block, and its source in a few words.
 ///
 /// # Errors
-/// If the marker names what does not exist.
+/// If the marker names something that does not exist.
 pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, String), Fault> {
     let wrong = |what: String, remedy: &str| Fault::new(&*page.path, block.line, what, remedy);
     let words: Vec<&str> = block.words.iter().map(String::as_str).collect();
@@ -83,7 +83,7 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
     }
 }
 
-/// The fault of a marker, or of the file that it names.
+/// The fault of a marker, or of a file it names.
 enum Wrong {
     Marker(String, String),
     Source(Fault),
@@ -135,7 +135,7 @@ fn split(source: &str) -> (&str, Option<&str>) {
     source.split_once('#').map_or((source, None), |(file, anchor)| (file, Some(anchor)))
 }
 
-/// A fenced block, whatever its text holds.
+/// A fenced block, with a fence longer than any in its text.
 fn fenced(language: &str, text: &str) -> String {
     let longest =
         text.lines().map(|line| line.trim_start().bytes().take_while(|b| *b == b'`').count());
@@ -143,7 +143,7 @@ fn fenced(language: &str, text: &str) -> String {
     format!("{fence}{language}\n{text}{fence}\n")
 }
 
-/// `NEW`'s changes since `OLD`: of one file, of a marked part of it, or of code and shaders.
+/// The changes from `OLD` to `NEW`: of one file, of a marked part of it, or of code and shaders.
 fn diff_block(
     project: &Project,
     old: &str,
@@ -197,7 +197,7 @@ fn diff_block(
     }
 }
 
-/// One file's changes since another, under the paths that they have in the reader's own crate.
+/// The changes from one file to another, under their paths in the reader's own crate.
 fn own_program_diff(project: &Project, old: &str, new: &str) -> Result<String, Wrong> {
     for file in [old, new] {
         read(project, file)?;
@@ -213,7 +213,7 @@ fn own_program_diff(project: &Project, old: &str, new: &str) -> Result<String, W
     Ok(fenced("diff", &unified(&diff)))
 }
 
-/// A file's changes in the form that every tool knows.
+/// A file's changes as a unified diff.
 fn unified(diff: &FileDiff) -> String {
     let path = |side: &Side| side.path.clone().unwrap_or_else(|| "/dev/null".to_owned());
     let mut text = format!("--- {}\n+++ {}\n", path(&diff.old), path(&diff.new));

@@ -1,4 +1,4 @@
-//! The whole book: what its generated parts should say, what is wrong, and mending what can be mended.
+//! The whole book: checks it, and regenerates its generated parts.
 
 use std::collections::BTreeSet;
 
@@ -56,11 +56,11 @@ impl<'a> Book<'a> {
     /// Everything that is wrong, in the order of files and lines.
     ///
     /// # Errors
-    /// If the system starts no program.
+    /// If a program cannot be started.
     pub fn check(&self) -> Result<Vec<Fault>> {
         let project = self.programs.project;
         let mut faults = chapter_files::check(project);
-        // A chapter's own picture is the gallery's too, whether or not its command is right.
+        // A chapter's own picture also appears in the gallery, whether or not its command is right.
         let mut linked: BTreeSet<String> =
             project.chapters.iter().map(|chapter| chapter.picture()).collect();
         self.ask_programs()?;
@@ -123,10 +123,10 @@ impl<'a> Book<'a> {
         Ok(told_once(faults))
     }
 
-    /// Fills every generated part; returns what it changed, and what it could not.
+    /// Fills every generated part; returns the changes, and the faults that remain.
     ///
     /// # Errors
-    /// If a file cannot be written, or the system starts no program.
+    /// If a file cannot be written, or a program cannot be started.
     pub fn sync(&self) -> Result<(Vec<String>, Vec<Fault>)> {
         let project = self.programs.project;
         let (mut changed, mut faults) = (Vec::new(), Vec::new());
@@ -169,8 +169,8 @@ impl<'a> Book<'a> {
         Ok((changed, told_once(faults)))
     }
 
-    /// Runs the measurements of these pages and names again, or with none those that are missing or were made by
-    /// another command.
+    /// Repeats the measurements of these pages and names; without any, those that are missing or whose
+    /// command has changed.
     ///
     /// # Errors
     /// If a name is unknown.
@@ -203,7 +203,7 @@ impl<'a> Book<'a> {
         Ok(faults)
     }
 
-    /// Numbers that are perhaps measured and not bound, in lines that were edited since the last commit.
+    /// Numbers that may be measured but are not bound, in lines edited since the last commit.
     pub fn warnings(&self) -> Vec<Fault> {
         let edited = change::lines(&self.programs.project.root);
         let warning = |page: &Page| {
@@ -247,7 +247,7 @@ impl<'a> Book<'a> {
         faults
     }
 
-    /// A chapter's page is headed by its number and title.
+    /// Checks that a chapter's page is headed by its number and title.
     fn title(&self, page: &Page, written: &Markdown) -> Option<Fault> {
         let project = self.programs.project;
         let heading = match project.of_page(&page.path) {
@@ -268,7 +268,7 @@ impl<'a> Book<'a> {
         for chapter in &self.programs.project.chapters {
             let page = self.pages.iter().find(|page| page.path == chapter.page());
             let made = pictures.iter().any(|picture| picture.name == chapter.name);
-            // A marker that is wrong has been told as that.
+            // A wrong marker has already been reported.
             if let Some(page) = page.filter(|page| !made && page.faults.is_empty()) {
                 let what = format!("no command makes {}", chapter.picture());
                 let remedy = "add <!-- picture --> on the line before the ```sh block with it";
@@ -285,7 +285,7 @@ impl<'a> Book<'a> {
         (!shown).then(|| Fault::new(README, 1, "the README has no gallery", remedy))
     }
 
-    /// Anchors are held to their form even where no page shows them yet.
+    /// The faults of anchors, including those that no page shows.
     fn wrong_anchors(&self) -> Vec<Fault> {
         let project = self.programs.project;
         let files = ["common/src", "samples", "shaders"].map(|folder| project.files(folder));
@@ -298,7 +298,7 @@ impl<'a> Book<'a> {
     /// Fails if no page and no mistake makes one of these pictures.
     ///
     /// # Errors
-    /// With its name.
+    /// If there is none; the message has the name.
     pub fn check_pictures(&self, names: &[String]) -> Result<(), UsageError> {
         let project = self.programs.project;
         let pictures = Picture::all(project, &self.pages).0.into_iter().map(|picture| picture.name);
@@ -313,8 +313,8 @@ impl<'a> Book<'a> {
         }
     }
 
-    /// Renders the pictures of these names, or with none those that are missing or were made by another command;
-    /// `done` hears of each file what became of it.
+    /// Renders the pictures of these names; without any, those that are missing or whose command has changed.
+    /// `done` receives each file and the result.
     ///
     /// # Errors
     /// If a name is unknown, or a command fails.
@@ -365,7 +365,7 @@ impl<'a> Book<'a> {
     }
 }
 
-/// Faults in which all that one build mends is one: what is missing are programs, not lines of pages.
+/// Merges the faults that a single build fixes: they report missing programs, not lines of pages.
 fn told_once(faults: Vec<Fault>) -> Vec<Fault> {
     let (unbuilt, mut faults): (Vec<_>, Vec<_>) =
         faults.into_iter().partition(|fault| fault.remedy == BUILD);

@@ -1,4 +1,4 @@
-//! A check that a page can be read in one sitting: its words, and the words of a section that nothing interrupts.
+//! Checks that a page can be read in one sitting: the words of the page, and of each section without a break.
 
 use manuscript::fault::Fault;
 use manuscript::page::{Kind, Page};
@@ -6,23 +6,23 @@ use manuscript::project::Project;
 
 use crate::values::binding::stripped;
 
-/// The most words of a chapter's page, without exercises and sources: ten minutes' reading.
+/// The largest number of words on a chapter's page, without exercises and sources: ten minutes' reading.
 const MOST: usize = 2000;
 
-/// The most words of a section without a drawing, a snippet or a table.
+/// The largest number of words in a section without a drawing, a snippet or a table.
 const UNBROKEN: usize = 250;
 
-/// The sections that are no reading.
+/// The sections that are not part of the text.
 const APART: [&str; 3] = ["## Controls", "## Try it", "## Sources"];
 
 /// The length of a page.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Breath {
-    /// Its words: with captions and with comments in snippets, without what tables and code hold.
+    /// Its words, including captions and comments in snippets, without tables and code.
     pub words: usize,
     /// Its tables.
     pub tables: usize,
-    /// The section with the most words of those without a break: its line, from 1, and its words.
+    /// The section without a break that has the most words: its line, from 1, and its words.
     pub longest: (usize, usize),
 }
 
@@ -94,7 +94,7 @@ fn words(line: &str) -> usize {
     shown.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
 
-/// The parts of a chapter's page that are too long.
+/// Reports the parts of a chapter's page that are too long.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let Some(chapter) = project.of_page(&page.path) else { return Vec::new() };
     let Breath { words, longest: (line, unbroken), .. } = Breath::of(page);

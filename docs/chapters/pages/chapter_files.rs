@@ -1,11 +1,11 @@
-//! A check that every file of a chapter is there and has the right name.
+//! Checks that every file of a chapter exists and has the right name.
 
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project, README};
 
 use super::placeholder;
 
-/// The disagreements, seen from `Cargo.toml`.
+/// The disagreements between `Cargo.toml` and the files.
 pub fn check(project: &Project) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (index, chapter) in project.chapters.iter().enumerate() {
@@ -57,7 +57,8 @@ fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
     faults
 }
 
-/// Checks that each chapter's parents lead to one that has none. A parent may have the larger number.
+/// Checks that each chapter's line of parents ends at one without a parent. A parent may have the larger
+/// number.
 fn leads_to_a_first(project: &Project, chapter: &Chapter) -> bool {
     let mut at = Some(chapter);
     for _ in &project.chapters {
@@ -67,7 +68,7 @@ fn leads_to_a_first(project: &Project, chapter: &Chapter) -> bool {
     at.is_some_and(|first| first.from.is_none())
 }
 
-/// The program, its folder, shaders, page, test and golden.
+/// Checks the program, its folder, shaders, page, test and golden picture.
 fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
     let name = &chapter.name;
     let line = project.chapter_line(chapter);
@@ -75,7 +76,7 @@ fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
         [format!("samples/{name}/main.rs"), format!("tests/samples/{}.rs", chapter.module())];
     let (page, golden) = (chapter.page(), format!("tests/golden/{name}.png"));
     let manifest = project.read(&format!("samples/{name}/Cargo.toml")).ok();
-    // Cargo builds a package's programs for the sake of its test programs alone.
+    // Cargo builds a package's programs only if the package has test programs.
     let is_built = manifest.as_ref().is_none_or(|manifest| manifest.contains("[[test]]"));
     let write = || "write it".to_owned();
     let parts = [
@@ -118,7 +119,7 @@ fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
     faults
 }
 
-/// The lines with which a chapter's program opens have its number and title, and say what it is about.
+/// Checks that a chapter's program opens with its number and title and a description.
 fn opening(project: &Project, chapter: &Chapter, main: &str) -> Vec<Fault> {
     let Ok(text) = project.read(main) else { return Vec::new() };
     let opening = format!("//! {}: ", chapter.heading());
@@ -153,7 +154,7 @@ fn bins(project: &Project) -> Vec<Fault> {
     faults
 }
 
-/// Folders with a number are a chapter's.
+/// Checks that every numbered folder belongs to a chapter.
 fn folders(project: &Project) -> Vec<Fault> {
     let mut faults = Vec::new();
     for folder in ["samples", "shaders"] {

@@ -1,4 +1,5 @@
-//! The section *Try it* of a chapter's page: the list of its exercises, and nothing that looks like one.
+//! Checks the section *Try it* of a chapter's page: it contains the list of exercises and nothing that looks
+//! like one.
 
 use manuscript::fault::Fault;
 use manuscript::page::{Kind, Page};
@@ -40,7 +41,7 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let marker = format!("<!-- exercises {} -->", chapter.name);
     let lists = page.blocks.iter().filter(|block| block.kind == Kind::Exercises);
     let own = lists.filter(|block| block.words == [&*chapter.name]).count();
-    // A marker that is wrong has been told as that.
+    // A wrong marker has already been reported.
     if own == 0 && faults.is_empty() && page.faults.is_empty() {
         let what = format!("`{HEADING}` does not list the exercises");
         faults.push(fault(line, what, format!("add {marker} and <!-- /exercises --> below it")));

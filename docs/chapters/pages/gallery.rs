@@ -1,11 +1,11 @@
-//! Every chapter at a glance: the README's gallery, and mdBook's table of contents.
+//! All chapters at a glance: the README's gallery, and mdBook's table of contents.
 
 use manuscript::project::{Chapter, MEASUREMENTS, Project};
 
-/// Pictures side by side.
+/// The number of pictures in a row.
 const COLUMNS: usize = 3;
 
-/// Pages beside the chapters, with their titles: before them, and after.
+/// The pages before and after the chapters, with their titles.
 const BEFORE: &[(&str, &str)] = &[
     ("reading.md", "How to read this book"),
     ("map.md", "The map"),
@@ -37,13 +37,13 @@ const AFTER: &[(&str, &str)] = &[
     ("glossary.md", "Glossary"),
 ];
 
-/// Returns whether a page of the book is no chapter's.
+/// Returns whether a page of the book belongs to no chapter.
 pub fn is_other_page(file: &str) -> bool {
     BEFORE.iter().chain(AFTER).any(|(name, _)| file == *name)
 }
 
-/// A table of pictures for each part, each with its chapter's title and what that teaches, all leading to
-/// the page.
+/// A table of pictures for each part: each picture with its chapter's title and lesson, linked to the
+/// chapter's page.
 pub fn tables(project: &Project, page: &str) -> String {
     let parts = project.parted().into_iter().map(|(heading, chapters)| match &heading[..] {
         "" => table(&chapters, page),
@@ -53,7 +53,7 @@ pub fn tables(project: &Project, page: &str) -> String {
 }
 
 fn table(chapters: &[&Chapter], page: &str) -> String {
-    // The links are written as they lead from the page that shows the table.
+    // Links are relative to the page that shows the table.
     let up = "../".repeat(page.matches('/').count());
     let mut text = String::new();
     for (index, chapters) in chapters.chunks(COLUMNS).enumerate() {
@@ -79,7 +79,7 @@ fn row(chapters: &[&Chapter], cell: impl Fn(&Chapter) -> String) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// A chapter's lines in the table of contents: its page, and below it that of its further tables.
+/// A chapter's lines in the table of contents: its page, and below it the page of its further tables.
 fn contents_of(project: &Project, chapter: &Chapter) -> String {
     let Chapter { name, .. } = chapter;
     let page = format!("- [{}]({name}.md)\n", chapter.heading());
@@ -90,12 +90,12 @@ fn contents_of(project: &Project, chapter: &Chapter) -> String {
     }
 }
 
-/// The heading of the page that holds a chapter's further tables.
+/// The heading of the page with a chapter's further tables.
 pub fn measurements(chapter: &Chapter) -> String {
     format!("{} · Measurements", chapter.number())
 }
 
-/// The whole of `docs/SUMMARY.md`.
+/// The text of `docs/SUMMARY.md`.
 pub fn summary(project: &Project) -> String {
     let other = |(file, title): (&str, &str)| {
         if project.has(&format!("docs/{file}")) {

@@ -1,9 +1,9 @@
-//! The glossary: its terms, and that a page links each where it first uses it.
+//! The glossary: its terms, and a check that each page links a term where it first uses it.
 //!
-//! A term is a heading of the third level in `docs/glossary.md`. Below it stand what it means and links to
-//! the pages that explain it: those need no link back. An everyday word, which a page may use otherwise,
-//! carries the comment `<!-- everyday word -->`, and is not looked for. The comment `<!-- not: A, B -->` lists
-//! other words for the same thing: no page may use them.
+//! A term is a heading of the third level in `docs/glossary.md`, followed by its definition and links to the
+//! pages that explain it. Those pages need no link back. An everyday word, which a page may use in another
+//! sense, has the comment `<!-- everyday word -->` and is skipped. The comment `<!-- not: A, B -->` lists
+//! other words for the same thing, which no page may use.
 
 use std::ops::Range;
 
@@ -19,16 +19,16 @@ use crate::values::passage::{self, line};
 /// The page.
 pub const GLOSSARY: &str = "docs/glossary.md";
 
-/// The mark of a term that is not looked for.
+/// The mark of a term that is skipped.
 const EVERYDAY: &str = "<!-- everyday word -->";
-/// The first words of the list of words that a term stands for alone.
+/// The start of the list of words that the term replaces.
 const NOT: &str = "<!-- not:";
 
 /// A project's terms.
 #[derive(Default)]
 pub struct Glossary {
     terms: Vec<Term>,
-    /// Words that no page may use, each with the term to write.
+    /// Words that no page may use, each with the term to write instead.
     others: Vec<(String, String)>,
 }
 
@@ -37,7 +37,7 @@ struct Term {
     explained_on: Vec<String>,
 }
 
-/// A term's first use on a page, which is no link.
+/// A term's first use on a page, not yet a link.
 struct Use<'a> {
     term: &'a Term,
     span: Range<usize>,
@@ -68,7 +68,8 @@ impl Glossary {
         Self { terms: entries.filter_map(term).collect(), others: all().flat_map(others).collect() }
     }
 
-    /// Terms that a page of the book uses, and links nowhere before; and other words for what a term means.
+    /// The terms that a page of the book uses without a link at or before their first use, and the words it
+    /// should not use.
     pub fn check(&self, page: &Page) -> Vec<Fault> {
         let text = page.written();
         let mut faults = Vec::new();
@@ -89,7 +90,7 @@ impl Glossary {
         faults
     }
 
-    /// The page, with every term linked where it is first used.
+    /// The page, with every term linked at its first use.
     pub fn linked(&self, page: &Page) -> Page {
         let text = page.written();
         let linked = |Use { term, span }: Use| {
@@ -110,7 +111,7 @@ impl Glossary {
             sentences.iter().flat_map(used).map(|span| Use { term, span }).collect::<Vec<_>>()
         };
         let all: Vec<Use> = self.terms.iter().flat_map(found).collect();
-        // "hit group" within "shader hit group" would be another term.
+        // The term "hit group" must not match inside "shader hit group".
         let within = |one: &Use, other: &Use| {
             other.span.len() > one.span.len()
                 && other.span.start <= one.span.start
@@ -135,20 +136,20 @@ impl Glossary {
     }
 }
 
-/// The part behind the words of a link from a page to a term's meaning.
+/// The link target of a term, relative to a page.
 fn link_to(page: &Page, term: &Term) -> String {
     let up = "../".repeat(page.path.matches('/').count().saturating_sub(1));
     format!("({up}glossary.md#{})", slug(&term.name))
 }
 
-/// The ranges of a text that are written in sentences, in bytes.
+/// The byte ranges of a text that are prose.
 fn sentences(text: &str) -> Vec<Range<usize>> {
     let passages = passage::all(text);
     let passages = passages.iter().filter(|passage| !passage.is_set_apart);
     passages.flat_map(|passage| passage.text.iter().cloned()).collect()
 }
 
-/// The places in a part of a text that have a term as a word of its own, in the singular or the plural.
+/// The places in a part of a text where a term occurs as a whole word, singular or plural.
 fn uses(text: &str, part: Range<usize>, term: &str) -> Vec<Range<usize>> {
     let (lower, term) = (text[part.clone()].to_ascii_lowercase(), term.to_ascii_lowercase());
     let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || "-_".contains(c));
@@ -212,7 +213,7 @@ mod tests {
         };
         let text = "# Five\n\nA shadow ray, `occlusion ray`.\n\nTwo occlusion rays.\n";
         let expected = "'occlusion ray' is called 'shadow ray' in this book; write 'shadow ray'";
-        // Also on the page that explains it, and in the README.
+        // The check includes the page that explains the term and the README.
         assert_eq!(told("docs/05_e.md", text), format!("docs/05_e.md:5: {expected}"));
         assert_eq!(told("README.md", text), format!("README.md:5: {expected}"));
         assert_eq!(told(GLOSSARY, text), "");

@@ -1,4 +1,5 @@
-//! The map in words, for those who see no drawing: the ways through the book, and who comes from whom.
+//! The map in words, for readers who cannot see the drawing: the ways through the book, and the parent of
+//! each chapter.
 
 use manuscript::page::Page;
 use manuscript::project::{Chapter, Project, Way};
@@ -7,10 +8,10 @@ fn link(chapter: &Chapter) -> String {
     format!("[{}]({}.md)", chapter.heading(), chapter.name)
 }
 
-/// The map that is drawn.
+/// The file of the drawn map.
 pub const FILE: &str = "docs/images/map.svg";
 
-/// What the drawn map should be, if a page shows it.
+/// The drawn map as it should be, if a page shows it.
 pub fn drawing(project: &Project, pages: &[Page]) -> Option<String> {
     let name = FILE.trim_start_matches("docs/");
     let shows = |page: &Page| page.lines.iter().any(|line| line.contains(name));
@@ -18,7 +19,7 @@ pub fn drawing(project: &Project, pages: &[Page]) -> Option<String> {
     shown.then(|| drawings::map::draw(project))
 }
 
-/// A row for each way.
+/// A table with one row per way.
 pub fn ways(project: &Project) -> String {
     let mut text = "| way | chapters | what it gives |\n|---|---|---|\n".to_owned();
     for Way { title, gives, chapters } in &project.ways {
@@ -29,7 +30,7 @@ pub fn ways(project: &Project) -> String {
     text
 }
 
-/// Every chapter as an item below the one that it builds on.
+/// A list of all chapters, each an item below the chapter it builds on.
 pub fn chapters(project: &Project) -> String {
     let line = |(depth, chapter): (usize, &Chapter)| {
         format!("{}- {}: {}\n", "  ".repeat(depth), link(chapter), chapter.teaches)

@@ -1,4 +1,4 @@
-//! The author's text of a page, taken apart: links, code, headings.
+//! Parses the author's text of a page into links, code and headings.
 
 use manuscript::fault::Fault;
 use manuscript::link::local;
@@ -14,19 +14,19 @@ pub struct Link {
     pub target: String,
 }
 
-/// A fenced block, or code within a sentence.
+/// A fenced block, or inline code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Code {
     /// The line on which its text begins, from 1.
     pub line: usize,
-    /// The language given; none within a sentence.
+    /// The language given; empty for inline code.
     pub language: String,
     /// The text.
     pub text: String,
 }
 
 impl Code {
-    /// True if it may hold commands: also in a sentence.
+    /// True if it may contain commands. Inline code may as well.
     pub fn is_shell(&self) -> bool {
         ["sh", "bash", "console", "shell", ""].contains(&&*self.language)
     }
@@ -39,11 +39,11 @@ pub struct Formula {
     pub line: usize,
     /// The text.
     pub text: String,
-    /// True if it is a block of ```` ```math ````, which Markdown leaves as it is, and not between dollars.
+    /// True for a block of ```` ```math ````, which Markdown leaves unchanged; false between dollars.
     pub fenced: bool,
 }
 
-/// A page's parts.
+/// The parts of a page.
 #[derive(Debug, Default)]
 pub struct Markdown {
     /// Every link and picture.
@@ -59,7 +59,7 @@ pub struct Markdown {
 }
 
 impl Markdown {
-    /// Takes a page apart.
+    /// Parses a page.
     pub fn parse(text: &str) -> Self {
         let mut found = Self::default();
         let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
@@ -122,7 +122,7 @@ impl Markdown {
     }
 }
 
-/// The targets of `src` and `href`.
+/// The values of `src` and `href`.
 fn html_targets(html: &str) -> Vec<String> {
     let pieces = ["src=\"", "href=\""].into_iter().flat_map(|key| html.split(key).skip(1));
     pieces.filter_map(|rest| rest.split_once('"')).map(|(target, _)| target.to_owned()).collect()
@@ -144,8 +144,8 @@ pub fn check_links(project: &Project, page: &str, links: &[Link]) -> Vec<Fault> 
     faults
 }
 
-/// The faults of formulas. Between dollars a code host's Markdown takes away the `\` before a sign. A block
-/// of ```` ```math ```` stays as it is, but needs no dollars, and its braces must come in pairs.
+/// The faults of formulas. Between dollars, a code host's Markdown removes the `\` before punctuation. A
+/// block of ```` ```math ```` is unchanged, but may contain no dollars, and its braces must match.
 pub fn check_formulas(page: &str, formulas: &[Formula]) -> Vec<Fault> {
     let mut faults = Vec::new();
     for Formula { line, text, fenced } in formulas {
@@ -197,7 +197,7 @@ mod tests {
         };
         let told = faults("Fine: $a \\thinspace b$.\n\nNot: $t\\,d$, it costs $5.\n");
         assert!(told.starts_with("p.md:3: in a formula, Markdown takes '\\,' for ','; "), "{told}");
-        // A block reaches the reader as it stands.
+        // A block reaches the reader unchanged.
         assert_eq!(faults("```math\n\\frac{a}{b} \\, c\n```\n"), "");
         let told = faults("A\n\n```math\n$a$\n```\n");
         assert!(told.starts_with("p.md:4: a block of formulas has a '$'; "), "{told}");

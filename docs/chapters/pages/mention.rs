@@ -1,6 +1,6 @@
-//! Chapters and exercises that a page's text names by their number: `chapter 05`, `05`, `exercise 3`.
+//! Chapters and exercises mentioned by number in a page's text: `chapter 05`, `05`, `exercise 3`.
 //!
-//! A chapter that is still to come is named as `chapter 11 (planned)`, and in no other way.
+//! A chapter that does not exist yet is mentioned as `chapter 11 (planned)`.
 
 use std::sync::LazyLock;
 
@@ -11,13 +11,13 @@ use regex_lite::{Match, Regex};
 
 use super::exercise_list;
 
-/// The words behind the number of a chapter that is not there yet.
+/// The words after the number of a chapter that does not exist yet.
 const PLANNED: &str = " (planned)";
-/// The pages that name the chapters of other books.
+/// The section that mentions chapters of other books.
 const SOURCES: &str = "## Sources";
 
 static NUMBER: LazyLock<Regex> = LazyLock::new(|| regex(r"\b\d\d\b"));
-/// After the word comes a number, after its plural a list such as `05, 06 and 12`.
+/// The word is followed by a number, its plural by a list such as `05, 06 and 12`.
 static LIST: LazyLock<Regex> = LazyLock::new(|| {
     let gap = r"(?: |, | \(|\) )";
     regex(&format!(r"(?i)\bchapter{gap}\d\d\b|\bchapters(?:{gap}(?:and|or|to|planned|\d\d)\b)+"))
@@ -34,11 +34,11 @@ fn regex(pattern: &str) -> Regex {
 pub struct Mention {
     /// Such as `05`.
     pub number: String,
-    /// True if the line says that the chapter is still to come.
+    /// True if the line says that the chapter is planned.
     pub planned: bool,
 }
 
-/// The faults of the chapters and exercises that a page names.
+/// The faults of the chapters and exercises that a page mentions.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let mut faults = Vec::new();
     let own = project.of_page(&page.path).is_some();
@@ -76,7 +76,7 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     faults
 }
 
-/// The pieces of code in a line, each with the byte at which its text begins.
+/// The code spans in a line, each with the byte at which its text begins.
 pub fn codes(line: &str) -> Vec<(usize, &str)> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -90,7 +90,7 @@ pub fn codes(line: &str) -> Vec<(usize, &str)> {
     found
 }
 
-/// A line with blanks in place of code, of where links lead, and of formulas.
+/// A line with its code, link targets and formulas replaced by blanks.
 fn plain(line: &str) -> String {
     let mut bytes = line.as_bytes().to_vec();
     let mut blank = |start: usize, end: usize| bytes[start..end].fill(b' ');
@@ -105,17 +105,17 @@ fn plain(line: &str) -> String {
     for pair in dollars.chunks_exact(2) {
         blank(pair[0], pair[1]);
     }
-    // Blanks replace whole characters: what is taken out begins and ends beside an ASCII mark.
+    // Whole characters are replaced: every removed part begins and ends next to an ASCII character.
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// Every chapter that a line names: after the word *chapter*, or by a number that begins with 0.
+/// All chapters mentioned in a line: after the word *chapter*, or by a number that begins with 0.
 pub fn chapters(line: &str) -> Vec<Mention> {
     let text = plain(line);
     let lists: Vec<Match> = LIST.find_iter(&text).collect();
     let is_named = |number: &Match| {
         let (before, after) = (&text[..number.start()], &text[number.end()..]);
-        // Neither the month of a date nor a part of a longer number.
+        // Skips the month of a date and parts of longer numbers.
         let longer = before.ends_with(['.', ',', ':', '/', '-', '−', '–', '#'])
             || after.starts_with(['.', ',', ':', '/', '-'])
                 && after[1..].starts_with(|c: char| c.is_ascii_digit());
@@ -129,7 +129,7 @@ pub fn chapters(line: &str) -> Vec<Mention> {
     NUMBER.find_iter(&text).filter(is_named).map(mention).collect()
 }
 
-/// Every chapter that a line names as its folder is called, in the text or as a piece of code.
+/// All chapters mentioned in a line by their folder's name, in the text or in code.
 fn names(line: &str) -> Vec<String> {
     let text = plain(line);
     let alone = |code: &&str| NAME.find(code).is_some_and(|name| name.range() == (0..code.len()));
@@ -138,7 +138,7 @@ fn names(line: &str) -> Vec<String> {
     prose.chain(codes).map(str::to_owned).collect()
 }
 
-/// The number of every exercise that a line names.
+/// The numbers of all exercises mentioned in a line.
 fn exercises(line: &str) -> Vec<usize> {
     let text = plain(line);
     EXERCISE.captures_iter(&text).filter_map(|found| found[1].parse().ok()).collect()

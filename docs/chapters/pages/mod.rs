@@ -1,6 +1,6 @@
-//! Pages: what stands in their generated blocks, and whether what they say is so.
+//! Pages: fills their generated blocks, and checks their statements.
 //!
-//! The room on top: it asks the others for their part of the [`book`], and none of them knows it.
+//! The top layer: it collects the other layers' parts of the [`book`]; none of them depends on it.
 
 pub mod block;
 pub mod book;

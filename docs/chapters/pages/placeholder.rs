@@ -1,4 +1,4 @@
-//! Words that hold a place for what is still to be written.
+//! Placeholders for text that is still to be written.
 
 use manuscript::fault::Fault;
 use manuscript::page::Page;
@@ -6,23 +6,23 @@ use manuscript::project::Project;
 
 use crate::exercises::exercise;
 
-/// The lesson of a chapter that `new` has made.
+/// The placeholder lesson of a chapter made by `new`.
 pub const TEACHES: &str = "say here, in a line, what it teaches";
 
-/// The first words of its program, behind the chapter's number and title, and behind its parent's name.
+/// The first words of a new program, after the chapter's number and title, and after its parent's name.
 pub const OPENING: [&str; 2] = ["what it teaches, in a line.", "what is new."];
 
 /// The placeholder of a figure in a cell of a table.
 const CELLS: [&str; 3] = ["X", "TBD", "TODO"];
 
-/// The word that `new` puts where something is to be written.
+/// The word that `new` writes where text is missing.
 const WRITE: &str = "WRITE";
 
-/// The beginning of a comment that asks for another.
+/// The start of a comment that requests text.
 const SAY: &str = "say here";
 
-/// Every placeholder of a page: a line that is nothing but a word of capitals, a cell that says it is empty, `WRITE`
-/// within a line, or a request to say something.
+/// The placeholders of a page: a line that is only a word in capitals, a cell marked as empty, `WRITE` within
+/// a line, or a request to say something.
 pub fn check(page: &Page) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (line, text) in page.prose() {
@@ -38,7 +38,7 @@ pub fn check(page: &Page) -> Vec<Fault> {
     faults
 }
 
-/// The placeholders of exercises, and of the programs and tests of chapters, whose comments may ask for something.
+/// The placeholders of exercises, and of the programs and tests of chapters.
 pub fn check_files(project: &Project) -> Vec<Fault> {
     let mut faults = Vec::new();
     for folder in [exercise::FOLDER, "samples", "tests/samples"] {
@@ -46,7 +46,7 @@ pub fn check_files(project: &Project) -> Vec<Fault> {
         for file in project.files(folder) {
             let (exercise, rust) = (folder == exercise::FOLDER, file.ends_with(".rs"));
             let text = (exercise || rust).then(|| project.read(&file).ok()).flatten();
-            // An exercise's diff may add whatever it likes.
+            // An exercise's diff may add anything.
             let text = text.unwrap_or_default();
             let lines = text.lines().take_while(|line| !(exercise && line.starts_with("--- ")));
             let asked = lines.enumerate().filter(|(_, line)| exercise || is_comment(line));
@@ -58,7 +58,7 @@ pub fn check_files(project: &Project) -> Vec<Fault> {
     faults
 }
 
-/// A placeholder within a line. In a code span it is quoted.
+/// A placeholder within a line. In a code span it is only quoted.
 fn within(text: &str) -> Option<&str> {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || ['-', '_'].contains(&c);
     let mut prose = text.split('`').step_by(2);
@@ -68,13 +68,13 @@ fn within(text: &str) -> Option<&str> {
     if write { Some(WRITE) } else { say.map(|_| words) }
 }
 
-/// A place in a file that such words hold.
+/// A fault that reports a placeholder in a file.
 pub fn fault(file: &str, line: usize, words: &str) -> Fault {
     let what = format!("'{words}' holds a place for something");
     Fault::new(file, line, what, "write what belongs here")
 }
 
-/// Returns whether a line says nothing but a word such as `ERRORTABLE`.
+/// Returns whether a line consists only of a word such as `ERRORTABLE`.
 fn is_word_of_capitals(line: &str) -> bool {
     let word = line.trim_end_matches([':', '.', '…']);
     word.len() > 1 && word.bytes().all(|byte| byte.is_ascii_uppercase() || byte == b'_')

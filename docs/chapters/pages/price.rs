@@ -1,6 +1,6 @@
-//! The price line of a chapter: what is exact there, what that costs, and how much is wrong without it.
+//! The price line of a chapter: what is exact, what it costs, and how wrong the result is without it.
 //!
-//! A page need not have one. It opens the section about accuracy, near the end:
+//! The line is optional. It opens the section about accuracy, near the end:
 //!
 //! ````markdown
 //! ## What accuracy costs here
@@ -13,7 +13,7 @@ use manuscript::fault::Fault;
 use manuscript::page::Page;
 use manuscript::project::Project;
 
-/// The words before each part, in order.
+/// The label of each part, in order.
 const LABELS: [&str; 3] = ["**Exact:**", "**Price:**", "**Without it:**"];
 
 /// The heading of the section that it opens.
@@ -26,7 +26,7 @@ pub fn check(project: &Project, page: &Page) -> Option<Fault> {
     Some(Fault::new(&*page.path, line, what, remedy))
 }
 
-/// The line of a price line that is wrong, what it is, and the remedy.
+/// The faulty line of a price line, the fault, and the remedy.
 fn wrong(page: &Page) -> Option<(usize, &'static str, String)> {
     let prose = page.prose();
     let is_part = |line: &str| line.starts_with("> ") && LABELS.iter().any(|l| line.contains(l));
@@ -46,7 +46,7 @@ fn wrong(page: &Page) -> Option<(usize, &'static str, String)> {
     (!is_whole(&text)).then_some((line, "the price line lacks a part", form))
 }
 
-/// Tests whether all parts are there, in order, and none is empty.
+/// Returns whether all parts are present, in order, and not empty.
 fn is_whole(text: &str) -> bool {
     let mut rest = text;
     let mut parts = Vec::new();

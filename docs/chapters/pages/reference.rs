@@ -1,4 +1,4 @@
-//! Files, lines and anchors that a page names: in code within a sentence, in a command, in a link.
+//! Checks the files, lines and anchors that a page mentions: in inline code, in commands and in links.
 
 use std::collections::BTreeSet;
 
@@ -12,11 +12,11 @@ use manuscript::shader;
 use super::markdown::{Code, Link, Markdown};
 use super::mention::{chapters, codes};
 
-/// The folders whose files a page may name.
+/// The folders whose files a page may mention.
 const FOLDERS: [&str; 5] = ["common", "docs", "samples", "shaders", "tests"];
-/// The files that a page may name without their folder, beside shaders.
+/// The extensions of files that a page may mention without their folder, besides shaders.
 const EXTENSIONS: [&str; 5] = ["rs", "toml", "obj", "mtl", "md"];
-/// The mark behind which the next file is one that the reader writes.
+/// The words before a file that the reader writes.
 const WRITES: [&str; 3] = ["Write `", "write `", "` to `"];
 /// Arguments that name a file to be written.
 const OUTPUTS: [&str; 4] = ["--out", "--report", "--save", "--measure"];
@@ -34,7 +34,7 @@ impl<'a> Files<'a> {
         Self { project, all }
     }
 
-    /// The faults of the files, lines and anchors that a page names.
+    /// The faults of the files, lines and anchors that a page mentions.
     pub fn check(&self, page: &Page, written: &Markdown) -> Vec<Fault> {
         let fault = |line: usize, what: String| Fault::new(&*page.path, line, what, "correct it");
         let mut faults = Vec::new();
@@ -60,7 +60,7 @@ impl<'a> Files<'a> {
         faults
     }
 
-    /// The reason why a piece of code is no name of a file, if it looks like one.
+    /// The reason why inline code that looks like a file name is not one.
     fn wrong(&self, page: &Page, text: &str, code: &str) -> Option<String> {
         let (name, place) = split(code);
         if code.contains(|c: char| c.is_whitespace() || "<>*…(){}\"'=|".contains(c)) {
@@ -75,7 +75,7 @@ impl<'a> Files<'a> {
         }
         let (folder, rest) = name.split_once('/').unwrap_or(("", name));
         if FOLDERS.contains(&folder) {
-            // A shader includes files by their path below `shaders/`.
+            // Shaders include files by their path below `shaders/`.
             let found = [name.to_owned(), format!("shaders/{name}")]
                 .into_iter()
                 .find_map(|path| self.path(path.trim_end_matches('/')));
@@ -107,7 +107,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The path of a file or folder that is there; where a name stands for any, of the first chapter.
+    /// The path of an existing file or folder; a name that stands for any chapter resolves to the first.
     fn path(&self, path: &str) -> Option<String> {
         let for_chapter = |chapter: &Chapter| {
             let module = format!("/{}.", chapter.module());
@@ -118,8 +118,8 @@ impl<'a> Files<'a> {
         Some(path.to_owned()).filter(there).or_else(|| paths.find(there))
     }
 
-    /// Returns whether a page may name a file without its folder: it is of all chapters, of this one or of one
-    /// that this builds on, or the line names the file's chapter.
+    /// Returns whether a page may mention a file without its folder: the file is shared, or belongs to this
+    /// chapter or one it builds on, or the line mentions the file's chapter.
     fn is_near(&self, page: &Page, text: &str, path: &str) -> bool {
         let mut parts = path.split('/');
         let above = parts.next();
@@ -133,7 +133,7 @@ impl<'a> Files<'a> {
             || chapters(text).iter().any(|mention| mention.number == of.number())
     }
 
-    /// The reason why a line or an anchor is not in a file, if it is not.
+    /// The reason why a line or an anchor is not in a file, or `None` if it is.
     fn wrong_place(&self, path: &str, place: Place) -> Option<String> {
         let text = || self.project.read(path).unwrap_or_default();
         match place {
@@ -151,7 +151,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The reason why a file that a command reads is not there, if it is not.
+    /// The reason why a file that a command reads is missing, or `None` if it exists.
     fn wrong_input(&self, command: &str) -> Option<String> {
         let mut words = command.split_whitespace().map(|word| word.trim_matches(['"', '\'', '\\']));
         let mut last = "";
@@ -164,7 +164,7 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// The reason why a link leads to no heading or line of a file that is there, if it does not.
+    /// The reason why a link's heading or line is missing from its file, or `None` if it exists.
     fn wrong_fragment(&self, page: &Page, link: &Link) -> Option<String> {
         let (file, fragment) = link.target.split_once('#')?;
         let path = match file {
@@ -190,7 +190,7 @@ enum Place<'a> {
     Anchor(&'a str),
 }
 
-/// A file's name, and the place in it that follows.
+/// A file's name, and the place in the file that follows it.
 fn split(code: &str) -> (&str, Place<'_>) {
     if let Some((name, anchor)) = code.split_once('#') {
         return (name, Place::Anchor(anchor));
@@ -199,13 +199,13 @@ fn split(code: &str) -> (&str, Place<'_>) {
     line.map_or((code, Place::Whole), |(name, line)| (name, Place::Line(line)))
 }
 
-/// The name of a heading in links, as mdBook and code hosts form it.
+/// The name of a heading in links, as mdBook and code hosts construct it.
 pub fn slug(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
     kept.collect::<String>().to_lowercase().replace(' ', "-")
 }
 
-/// The names of a page's headings: a second one of a name is numbered.
+/// The names of a page's headings; repeated names are numbered.
 fn slugs(headings: &[String]) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for heading in headings {

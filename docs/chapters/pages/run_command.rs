@@ -1,4 +1,4 @@
-//! A `cargo run` or a `cargo chapters` on a page, held to what its program accepts.
+//! Checks each `cargo run` and `cargo chapters` on a page against the arguments its program accepts.
 
 use clap::CommandFactory;
 use manuscript::fault::Fault;
@@ -10,7 +10,7 @@ use crate::programs::command_line::{CommandLine, runs};
 use crate::programs::program::{BUILD, Programs};
 
 impl CommandLine {
-    /// The controls that it sets or compares, with every value that they are given.
+    /// The controls that the command sets or compares, with all their values.
     fn settings(&self) -> Vec<(String, String)> {
         let command = instruments::command().no_binary_name(true);
         let Ok(found) = command.try_get_matches_from(&self.arguments) else { return Vec::new() };
@@ -22,7 +22,7 @@ impl CommandLine {
         sets.chain(compared).collect()
     }
 
-    /// The fault of one that compares chapters of which one does not exist; `NN` may stand for any chapter.
+    /// The fault of a comparison of chapters that do not exist; `NN` may stand for any chapter.
     fn unknown_chapter(&self, project: &Project) -> Option<String> {
         let [command, chapters @ ..] = &self.arguments[..] else { return None };
         let tool = self.bin.as_deref() == Some("chapters") && command == "diff";
@@ -30,7 +30,7 @@ impl CommandLine {
         chapters.into_iter().find_map(|given| project.chapter(given).err()).map(|usage| usage.0)
     }
 
-    /// The fault of it, and its remedy.
+    /// The fault of the command, and its remedy.
     fn wrong(&self, programs: &Programs) -> Option<(String, &'static str)> {
         let wrong =
             |what: String| Some((format!("this command does not run: {what}"), "correct it"));
@@ -84,13 +84,13 @@ pub fn check(programs: &Programs, page: &str, code: &[Code]) -> Vec<Fault> {
     let mut faults = Vec::new();
     for code in code.iter().filter(|code| code.is_shell()) {
         let mut runs = runs(&code.text);
-        // On a chapter's page, `--set "a=1"` in a sentence is for its own program.
+        // On a chapter's page, `--set "a=1"` in a sentence refers to its own program.
         if let Some(chapter) = chapter.filter(|_| code.text.starts_with("--set ")) {
             let arguments = shlex::split(&code.text).unwrap_or_default();
             runs.push((0, CommandLine { bin: Some(chapter.name.clone()), arguments }));
         }
         for (index, run) in runs {
-            // A name in a sentence may stand for any.
+            // A name in a sentence may be a placeholder.
             let placeholder = run.bin.as_deref().is_some_and(|bin| bin.contains(['N', '<', '…']));
             if !placeholder && let Some((what, remedy)) = run.wrong(programs) {
                 faults.push(Fault::new(page, code.line + index, what, remedy));

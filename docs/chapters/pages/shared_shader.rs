@@ -1,5 +1,5 @@
-//! The files of `shaders/common`, each used by several chapters; the first line of each says which
-//! chapter teaches it. That chapter includes it, and its page shows it.
+//! Checks the files of `shaders/common`, each used by several chapters. The first line of each names the
+//! chapter that teaches it; that chapter includes the file, and its page shows it.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use manuscript::shader;
 /// The forms of a shared file's first line.
 const FORMS: &str = "begin it with `// Taught by NN_name.`, `// Like NAME in NN_name, but …` or `// Of no chapter: …`";
 
-/// The faults of the files that chapters share, and of those that should be shared.
+/// The faults of the shared files, and of files that should be shared.
 pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let files = project.files("shaders/common");
     let mut faults: Vec<Fault> =
@@ -23,7 +23,7 @@ pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
 /// The faults of a shared file.
 fn wrong(project: &Project, pages: &[Page], file: &str) -> Option<Fault> {
     let text = project.read(file).unwrap_or_default();
-    // A stage begins with its version: nothing may stand before it.
+    // A stage must begin with its version.
     let first = text.lines().find(|line| !line.starts_with("#version")).unwrap_or_default();
     if first.starts_with("// Of no chapter: ") {
         return None;
@@ -51,7 +51,7 @@ fn wrong(project: &Project, pages: &[Page], file: &str) -> Option<Fault> {
     None
 }
 
-/// Returns whether a chapter's page shows a part of a file, or its author names it there.
+/// Returns whether a chapter's page shows a part of a file, or its author mentions the file there.
 fn is_shown(pages: &[Page], chapter: &Chapter, file: &str) -> bool {
     let mut of = pages.iter().filter(|page| page.path == chapter.page());
     let name = file.rsplit('/').next().unwrap_or_default();
@@ -62,7 +62,7 @@ fn is_shown(pages: &[Page], chapter: &Chapter, file: &str) -> bool {
     of.any(|page| page.written().contains(name) || page.blocks.iter().any(snippet))
 }
 
-/// Files with the same text. Stages and push constants belong to their pipeline: chapters may have the same.
+/// Files with the same text. Stages and push constants are exempt, because they belong to their pipeline.
 fn twins(project: &Project) -> Vec<Fault> {
     let mut first: BTreeMap<String, String> = BTreeMap::new();
     let mut faults = Vec::new();

@@ -1,4 +1,4 @@
-//! Files that nothing mentions: left behind by a rename, or forgotten by their author.
+//! Finds files that nothing mentions: left behind by a rename, or forgotten by their author.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +12,10 @@ use crate::mistakes::mistake;
 use crate::survey::card;
 use crate::values::record;
 
-/// The folders in which every file has to be of use.
+/// The folders in which every file must be used.
 const FOLDERS: [&str; 5] = ["docs", "samples", "shaders", "tests/golden", "tests/samples"];
 
-/// Every stray file; `linked` are the files that pages link to or make.
+/// All stray files; `linked` are the files that pages link to or make.
 pub fn check(project: &Project, linked: &BTreeSet<String>) -> Vec<Fault> {
     let texts = Texts::read(project);
     let files = FOLDERS.into_iter().flat_map(|folder| project.files(folder));
@@ -25,7 +25,7 @@ pub fn check(project: &Project, linked: &BTreeSet<String>) -> Vec<Fault> {
         .collect()
 }
 
-/// The reason why a file is a stray, if it is.
+/// The reason why a file is stray, or `None` if it is not.
 fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) -> Option<String> {
     let (folder, name) = file.rsplit_once('/')?;
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
@@ -56,7 +56,7 @@ fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) 
                 texts.below(&folder.replacen("shaders/", "samples/", 1), &format!("\"{name}\""));
             (own || texts.code_says(&format!("\"{below}\"")), "no program names it")
         }
-        // Whether they are whole, their own check says.
+        // Their own check reports faulty ones.
         "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),
         "json" if folder == card::FOLDER => (true, ""),
         "js" | "frag" | "txt" if folder == "docs/site/interactive" => {
@@ -72,9 +72,9 @@ fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) 
     (!used).then(|| why.to_owned())
 }
 
-/// The texts in which files are named.
+/// The texts that may mention files.
 struct Texts {
-    /// Every text of the project that may name a file, with its path.
+    /// Every text of the project that may mention a file, with its path.
     texts: Vec<(String, String)>,
     /// Every shader file that another includes.
     included: BTreeSet<String>,
@@ -104,7 +104,7 @@ impl Texts {
         self.texts.iter().any(|(file, code)| inside(file) && code.contains(text))
     }
 
-    /// Returns whether another file has the name between marks or blanks.
+    /// Returns whether another file contains the name between punctuation or blanks.
     fn says(&self, file: &str, name: &str) -> bool {
         let word = |c: char| c.is_alphanumeric() || ['_', '-', '.'].contains(&c);
         let whole = |text: &str| {
@@ -116,7 +116,7 @@ impl Texts {
         self.texts.iter().any(|(other, text)| other != file && whole(text))
     }
 
-    /// Returns whether a source beside a module, or above its folder, declares it.
+    /// Returns whether a source next to a module, or above its folder, declares it.
     fn declares(&self, folder: &str, stem: &str) -> bool {
         let (folder, stem) = match stem {
             "mod" => folder.rsplit_once('/').unwrap_or(("", folder)),

@@ -1,4 +1,4 @@
-//! A `cargo test` on a page: `cargo test --test TARGET FILTER` must find a test.
+//! Checks each `cargo test` on a page: `cargo test --test TARGET FILTER` must find a test.
 
 use manuscript::fault::Fault;
 use manuscript::project::Project;
@@ -13,7 +13,7 @@ struct Asked {
     filter: Option<String>,
 }
 
-/// The faults of the `cargo test`s in a page's code.
+/// The faults of all `cargo test` commands in a page's code.
 pub fn check(project: &Project, page: &str, code: &[Code]) -> Vec<Fault> {
     let mut faults = Vec::new();
     for code in code.iter().filter(|code| code.is_shell()) {
@@ -44,7 +44,7 @@ fn asked(command: &str) -> Option<Asked> {
     Some(asked)
 }
 
-/// The reason why a command runs no test, if it runs none.
+/// The reason why a command runs no test, or `None` if it runs one.
 fn wrong(project: &Project, asked: &Asked) -> Option<String> {
     let target = asked.target.as_ref()?;
     let tests = test::of(project, target);

@@ -1,4 +1,4 @@
-//! The names in the text of a page or an exercise: chapters, files, commands, tests, links, formulas.
+//! Checks the names in the text of a page or an exercise: chapters, files, commands, tests, links, formulas.
 
 use manuscript::fault::Fault;
 use manuscript::page::Page;
@@ -10,7 +10,7 @@ use super::{mention, placeholder, run_command, test_command};
 use crate::exercises::exercise::{Exercise, Takes};
 use crate::programs::program::Programs;
 
-/// The names of a page that do not exist, or not as it says; `written` is the author's own text.
+/// The names on a page that do not exist or are wrong; `written` is the author's own text.
 pub fn check(programs: &Programs, files: &Files, page: &Page, written: &Markdown) -> Vec<Fault> {
     let path = &*page.path;
     let mut faults = placeholder::check(page);
@@ -35,14 +35,14 @@ pub fn check_exercises(programs: &Programs, files: &Files) -> Vec<Fault> {
     faults
 }
 
-/// The texts of an exercise as a page of its chapter has them, each on the line that it has in its file:
-/// what they name is held to what is there, as the text of a page is.
+/// The texts of an exercise as a page of its chapter, each on its line in the file, so that the same checks
+/// apply.
 fn texts(project: &Project, exercise: &Exercise) -> Page {
     let shown = |line: &str| {
         let (key, value) = line.split_once(": ")?;
         match key {
             "Text" | "Check" | "Hint" | "Why" => Some(value.to_owned()),
-            // Rust code may add what a program is set to.
+            // Rust code may add controls that the book's program lacks.
             "Run" if value.starts_with("--set ") && exercise.takes != Takes::Rust => {
                 Some(format!("`{value}`"))
             }

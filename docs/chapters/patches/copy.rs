@@ -1,4 +1,4 @@
-//! Copies of the shaders, or of all code, in which some files hold something else.
+//! Copies of the shaders, or of all code, with some files replaced.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use common::files::folder;
 use manuscript::project::Project;
 
-/// The folders of which a copy that can be built and tested is made, and the files beside them.
+/// The folders and files that a copy needs to be built and tested.
 const FOLDERS: [&str; 8] = [
     "common",
     "docs/chapters",
@@ -22,7 +22,7 @@ const FOLDERS: [&str; 8] = [
 ];
 const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 
-/// The contents of some files of a copy in place of the project's, by their path from its root.
+/// The new contents of some files, by their path from the root.
 pub type Changed = BTreeMap<String, String>;
 
 /// Makes a folder a copy of the shaders.
@@ -33,7 +33,7 @@ pub fn copy_shaders(project: &Project, folder: &Path, changed: &Changed) -> Resu
     copy(project, folder, changed, (&["shaders"], &[]), "shaders/")
 }
 
-/// Makes a folder a copy of all that a build needs.
+/// Makes a folder a copy of everything a build needs.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -41,10 +41,10 @@ pub fn copy_code(project: &Project, folder: &Path, changed: &Changed) -> Result<
     copy(project, folder, changed, (&FOLDERS, &FILES), "")
 }
 
-/// Makes a folder a copy of some folders and files, of which `changed` replaces some.
+/// Makes a folder a copy of some folders and files, with those in `changed` replaced.
 ///
-/// A file has the project's time, and a changed one the present time, so that Cargo builds only what has changed; one
-/// that the copy has too many is removed.
+/// A file gets the project's modification time and a changed one the present time, so that Cargo builds only
+/// what has changed. Files that only the copy has are removed.
 fn copy(
     project: &Project,
     above: &Path,
@@ -89,7 +89,7 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect()
 }
 
-/// The file that keeps a path from being a folder, itself or above it.
+/// A file at the path, or above it, that keeps it from being a folder.
 pub fn file_on_the_way(folder: &Path) -> Option<&Path> {
     folder.ancestors().find(|part| part.exists()).filter(|part| !part.is_dir())
 }

@@ -1,4 +1,4 @@
-//! An edition of the book's code that can be run: as it is, with other shaders, or a changed copy of it.
+//! An edition of the book's code that can be run: unchanged, with other shaders, or a changed copy.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -15,13 +15,13 @@ use super::seed;
 use crate::programs::child;
 use crate::programs::program::Programs;
 
-/// The folder in which patched code is built, one patch after the other, from what the book's own build has left
+/// The folder in which patched code is built, one patch after the other, starting from the book's own build
 /// ([`seed`]).
 const COPY: &str = "target/mistakes/copy";
 const BUILT: &str = "target/mistakes/build";
 const LOCK: &str = "target/mistakes/lock";
 
-/// The longest time of tests once they are built.
+/// The longest time of tests after the build.
 const LIMIT: Limit = Limit::waited(ASLEEP);
 
 /// An edition.
@@ -37,7 +37,7 @@ pub enum Edition {
     Edited,
 }
 
-/// An edition with a patch, as long as it is held.
+/// An edition with a patch, valid until it is dropped.
 pub struct Patched {
     /// The edition.
     pub edition: Edition,
@@ -46,11 +46,11 @@ pub struct Patched {
 }
 
 impl Patched {
-    /// Makes it. A patch of shaders gets a folder of its own; any other waits until the one copy of all code
-    /// is free.
+    /// Applies the patch. A patch of shaders gets a folder of its own; any other waits until the single copy
+    /// of all code is free.
     ///
     /// # Errors
-    /// If the patch does not fit, or the copy cannot be written.
+    /// If the patch does not apply, or the copy cannot be written.
     pub fn of(programs: &Programs, patch: &Patch) -> Result<Self> {
         let project = programs.project;
         if patch.is_in_shaders() {
@@ -123,12 +123,12 @@ impl Edition {
         }
     }
 
-    /// Runs the tests of a test program whose names hold `filter`.
+    /// Runs the tests of a test program whose names contain `filter`.
     ///
     /// # Errors
-    /// If they do not build, or there is none; in one line.
+    /// If they do not build, or none is found; in one line.
     pub fn test(&self, programs: &Programs, (program, filter): (&str, &str)) -> Result<Tested> {
-        // A build may take as long as it will, and only once. With a test Cargo builds all programs of its package.
+        // The build has no time limit and runs first. With a test, Cargo builds all programs of its package.
         let (mut build, _) = self.cargo("test", programs);
         build.args(["--no-run", "--test", program]);
         let what = format!(
@@ -137,7 +137,7 @@ impl Edition {
         let built = child::run_saying(&mut build, Limit::NONE, &what)?;
         ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
         let tested = self.run_tests(programs, (program, filter), &[])?;
-        // What plain `cargo test` leaves to the night is asked for here by its name.
+        // A test that plain `cargo test` leaves to the nightly run is requested here by its name.
         match tested.passed + tested.failed {
             0 => {
                 let tested = self.run_tests(programs, (program, filter), &["--ignored"])?;
@@ -149,7 +149,7 @@ impl Edition {
         }
     }
 
-    /// Runs tests that are built, with more words for their program.
+    /// Runs tests that are already built, with further arguments.
     fn run_tests(
         &self,
         programs: &Programs,
@@ -161,7 +161,7 @@ impl Edition {
             .args(["--test", program, filter, "--"])
             .args(more)
             .env("SHADERS", self.shaders(programs.project));
-        // What a reader changes gives other figures than the page's.
+        // A reader's changes give other figures than the page's.
         cargo.env("EXERCISE", "1");
         let what = format!("running cargo test --test {program} {filter}");
         let ended = child::run_saying(&mut cargo, LIMIT, &what)?;
@@ -200,7 +200,7 @@ impl Edition {
         }
     }
 
-    /// Cargo in the edition's folder, and where what it builds goes.
+    /// Cargo in the edition's folder, and its target folder.
     fn cargo(&self, verb: &str, programs: &Programs) -> (Command, PathBuf) {
         let (folder, target): (&Path, PathBuf) = match self {
             Self::Copy(folder) => (folder, programs.project.root.join(BUILT)),
@@ -215,7 +215,7 @@ impl Edition {
     }
 }
 
-/// The first error that Cargo tells, in one line.
+/// The first error in Cargo's output, in one line.
 fn first_error(said: &str) -> String {
     let mut lines = said.lines().filter(|line| line.contains("error"));
     let line = lines.next().or_else(|| said.lines().last()).unwrap_or("Cargo does not say why");

@@ -1,15 +1,15 @@
-//! A hunk of a unified diff: lines of a file, and what stands there instead.
+//! A hunk of a unified diff: lines of a file and their replacement.
 
-/// Lines of a file, and what stands there instead.
+/// Lines of a file and their replacement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hunk {
     /// Its line in the diff, from 1.
     pub line: usize,
     /// Its file.
     pub file: String,
-    /// True if there is no such file before.
+    /// True if the file is new.
     pub new_file: bool,
-    /// The line at which its lines stood when the patch was made, from 0.
+    /// The line of its old lines when the patch was made, from 0.
     pub at: usize,
     /// The old lines.
     pub old: Vec<String>,
@@ -18,7 +18,7 @@ pub struct Hunk {
 }
 
 impl Hunk {
-    /// The line of its old lines, from 0: where they stand once, or else where they stood.
+    /// The present line of its old lines, from 0: their only occurrence, or else the original line.
     pub fn place(&self, lines: &[String]) -> Option<usize> {
         let old = self.old.len();
         let mut found = (0..(lines.len() + 1).saturating_sub(old))
@@ -30,7 +30,7 @@ impl Hunk {
         }
     }
 
-    /// The item of a text in which its first change stands, as the item's first line names it.
+    /// The item of a text that contains its first change, by the item's first line.
     pub fn item(&self, text: &str) -> Option<String> {
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();
         let same = self.old.iter().zip(&self.new).take_while(|(old, new)| old == new).count();
@@ -48,7 +48,7 @@ impl Hunk {
     }
 }
 
-/// The words at the beginning of a line of a shader that looks like a function and is none.
+/// Statements that look like functions in a shader.
 const CONTROL: [&str; 4] = ["if ", "for ", "while ", "switch "];
 
 /// The hunks of a unified diff.
@@ -68,7 +68,7 @@ pub fn hunks(text: &str) -> Result<Vec<Hunk>, (usize, String)> {
         } else if let Some(path) = line.strip_prefix("--- ") {
             (file, new_file) = (None, path.trim() == "/dev/null");
         } else if let (true, Some(file)) = (line.starts_with("@@"), &file) {
-            // The numbers behind `+` count the lines that earlier hunks have added.
+            // The numbers after `+` count the lines added by earlier hunks.
             let start = line.split_once('+').map_or("", |(_, rest)| rest);
             let digits = start.bytes().take_while(u8::is_ascii_digit).count();
             let Ok(start) = start[..digits].parse::<usize>() else {

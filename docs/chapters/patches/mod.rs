@@ -1,4 +1,4 @@
-//! Patches to the book's code, and the editions of it that they make: what exercises and mistakes are.
+//! Patches to the book's code, which exercises and mistakes consist of, and the editions they make.
 
 pub mod copy;
 pub mod edition;

@@ -1,4 +1,4 @@
-//! A patch with a heading: a title, fields `Key: value`, and a unified diff, which any tool applies.
+//! A patch with a heading: a title, fields `Key: value`, and a unified diff that any tool can apply.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub struct Field {
     pub line: usize,
     /// The text before the colon.
     pub key: String,
-    /// The text behind it.
+    /// The text after the colon.
     pub value: String,
 }
 
@@ -60,10 +60,10 @@ pub fn whole<T>((found, faults): (Vec<T>, Vec<Fault>)) -> Result<Vec<T>> {
 }
 
 impl Patch {
-    /// Reads a file whose `form` a fault tells.
+    /// Reads a file; `form` describes its form in error messages.
     ///
     /// # Errors
-    /// If a line of the heading is no field, or the diff is none.
+    /// If a line of the heading is not a field, or the diff is invalid.
     pub fn parse(file: &str, text: &str, form: &'static str) -> Result<Self, Fault> {
         let end = text.lines().position(|line| line.starts_with("--- "));
         let head: Vec<&str> = text.lines().take(end.unwrap_or(usize::MAX)).collect();
@@ -90,7 +90,7 @@ impl Patch {
         Ok(Self { file, title, text, form, fields, hunks })
     }
 
-    /// Takes out the field of a key that must stand there once.
+    /// Removes and returns the field of a key that must occur once.
     ///
     /// # Errors
     /// If it does not.
@@ -101,10 +101,10 @@ impl Patch {
         self.field_if_any(key)?.ok_or(missing)
     }
 
-    /// Takes out the field of a key that stands there at most once.
+    /// Removes and returns the field of a key that may occur once.
     ///
     /// # Errors
-    /// If it stands there twice.
+    /// If it occurs twice.
     pub fn field_if_any(&mut self, key: &str) -> Result<Option<Field>, Fault> {
         let mut found = self.fields_of(&[key]).into_iter();
         let first = found.next();
@@ -117,15 +117,15 @@ impl Patch {
         }
     }
 
-    /// Takes out all fields of several keys, in their order.
+    /// Removes and returns all fields of several keys, in their order.
     pub fn fields_of(&mut self, keys: &[&str]) -> Vec<Field> {
         self.fields.extract_if(.., |field| keys.contains(&&*field.key)).collect()
     }
 
-    /// Holds that every field has been taken out.
+    /// Checks that no field is left.
     ///
     /// # Errors
-    /// If one has not: it is none of `of`.
+    /// If one is left; the message says that it is not a field of `of`.
     pub fn no_other_field(&self, of: &str) -> Result<(), Fault> {
         let wrong = |Field { line, key, .. }: &Field| {
             Fault::new(&*self.file, *line, format!("'{key}' is no field of {of}"), self.form)
@@ -138,7 +138,7 @@ impl Patch {
         self.hunks.is_empty()
     }
 
-    /// Returns whether it changes shaders alone: then the built program shows it.
+    /// Returns whether it changes only shaders; then the built program can show it.
     pub fn is_in_shaders(&self) -> bool {
         self.hunks.iter().all(|hunk| hunk.file.starts_with("shaders/"))
     }
@@ -148,14 +148,14 @@ impl Patch {
         self.hunks.iter().any(|hunk| hunk.file.ends_with(".rs"))
     }
 
-    /// The files that it changes, each once and in their order.
+    /// The files it changes, each once, in order.
     pub fn files(&self) -> Vec<&str> {
         let mut files: Vec<&str> = self.hunks.iter().map(|hunk| &*hunk.file).collect();
         files.dedup();
         files
     }
 
-    /// The files that it changes, each with the item in which each change stands; a new file has none.
+    /// The files it changes, each with the items that contain the changes; none for a new file.
     pub fn places(&self, project: &Project) -> Vec<(String, Vec<String>)> {
         let mut places: Vec<(String, Vec<String>)> = Vec::new();
         for hunk in &self.hunks {
@@ -172,16 +172,16 @@ impl Patch {
         places
     }
 
-    /// The diff, as the file has it.
+    /// The diff as in the file.
     pub fn diff(&self) -> &str {
         let start = if self.text.starts_with("--- ") { Some(0) } else { self.text.find("\n--- ") };
         start.map_or("", |start| self.text[start..].trim_start())
     }
 
-    /// The contents of the patched files; `read` returns those before, `None` where there is no file.
+    /// The contents of the patched files; `read` returns the contents before, or `None` if there is no file.
     ///
     /// # Errors
-    /// If a hunk's lines do not stand in its file, or stand there twice and not where the hunk says.
+    /// If a hunk's lines are not in its file, or occur twice and not at the hunk's line number.
     pub fn patched(
         &self,
         read: impl Fn(&str) -> Option<String>,
@@ -217,10 +217,10 @@ impl Patch {
         self.patched(|file| project.has(file).then(|| project.read(file).ok()).flatten())
     }
 
-    /// Makes a folder a patched copy of the shaders, or of all that a build needs.
+    /// Makes a folder a patched copy of the shaders, or of everything a build needs.
     ///
     /// # Errors
-    /// If the patch does not fit, or the folder cannot be written.
+    /// If the patch does not apply, or the folder cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
         let patched = self.patched_in(project).map_err(Fault::error)?;
         if self.is_in_shaders() {

@@ -1,8 +1,9 @@
-//! A copy's build folder, filled with what the book has compiled: so Cargo compiles only what a patch changes.
+//! Fills a copy's build folder with the results of the book's build, so that Cargo compiles only what a patch
+//! changes.
 //!
-//! Cargo names what it compiles by a package's place below its workspace, and takes it for fresh while no source is newer
-//! than the build. A copy has the book's files in the book's order, with their times. So what the book has compiled is
-//! fresh in the copy, too.
+//! Cargo identifies its results by a package's place below its workspace, and considers them fresh while no
+//! source is newer than the build. A copy has the book's files in the book's order with their times, so the
+//! book's results are also fresh in the copy.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, FileTimes};
@@ -13,13 +14,13 @@ use anyhow::{Context, Result};
 
 use super::copy::files_below;
 
-/// Cargo's record of what it has compiled, a folder each; the results; and those of build scripts.
+/// Cargo's records of its results, one folder each; the results; and those of build scripts.
 const RECORDS: &str = ".fingerprint";
 const RESULTS: &str = "deps";
 const SCRIPTS: &str = "build";
 
-/// Fills the folder `to` of a profile with what lies in `from`, unless it is there already. What is compiled from a file
-/// of `changed` is left out: paths from the project's root.
+/// Fills the folder `to` of a profile from `from`, unless it exists already. Results compiled from a file of
+/// `changed` are left out: paths from the project's root.
 ///
 /// # Errors
 /// If a file cannot be copied.
@@ -49,21 +50,22 @@ pub fn plant(from: &Path, to: &Path, changed: &BTreeSet<String>) -> Result<()> {
             remove(&to.join(SCRIPTS).join(name))?;
             copy_all(&script, &to.join(SCRIPTS).join(name))?;
         }
-        // Last: without a record, Cargo takes nothing for compiled.
+        // Last, because Cargo ignores a result without a record.
         copy_all(&record, &there)?;
     }
     Ok(())
 }
 
-/// The hash by which Cargo tells apart what it compiles: `a1b2` of `libname-a1b2.rlib`.
+/// The hash by which Cargo distinguishes its results: `a1b2` of `libname-a1b2.rlib`.
 fn hash(file: &Path) -> Option<String> {
     let name = file.file_name()?.to_str()?;
     let (_, hash) = name.split('.').next()?.rsplit_once('-')?;
     Some(hash.to_owned())
 }
 
-/// Returns whether a record lists one of the changed files by folder and name. Cargo compares the times of a package's
-/// own files; a file outside the package it lists by its place in the book, where nothing has changed.
+/// Returns whether a record lists one of the changed files by folder and name. Cargo compares the times of a
+/// package's own files, but lists a file outside the package by its place in the book, where nothing has
+/// changed.
 fn names_any(record: &Path, changed: &BTreeSet<String>) -> bool {
     let ends: Vec<&[u8]> = changed.iter().map(|file| end(file).as_bytes()).collect();
     let is_list = |file: &PathBuf| {
@@ -101,7 +103,7 @@ fn remove(path: &Path) -> Result<()> {
     }
 }
 
-/// Gives a file another name in a folder. The compiler replaces what it compiles, but writes on in its lists of sources:
+/// Links a file into a folder. The compiler replaces its results but appends to its lists of sources, so
 /// these are copied.
 fn share(file: &Path, folder: &Path) -> Result<()> {
     let Some(name) = file.file_name() else { return Ok(()) };
@@ -151,7 +153,7 @@ mod tests {
         [lib]\npath = \"lib.rs\"\n";
     const PROGRAM: &str = "fn main() {\n    println!(\"{}\", common::number() + 1);\n}\n";
 
-    /// Builds a program; returns what was compiled for it, and what it prints.
+    /// Builds and runs a program; returns the compiled packages and the output.
     fn built(folder: &Path, target: &Path, program: &str) -> (Vec<String>, String) {
         let output = Command::new(env!("CARGO"))
             .args(["build", "--offline", "--bin", program])
@@ -204,20 +206,20 @@ mod tests {
         let (one, more) = ("samples/one.rs", &*more);
         let library = ("common/lib.rs", "pub fn number() -> u32 {\n    7\n}\n");
         assert_eq!(with(&[(one, more)], "one"), is("book", "6"));
-        // What was changed and is not any more is the book's again.
+        // A file that is no longer changed is the book's again.
         assert_eq!(with(&[], "one"), is("", "2"));
         assert_eq!(with(&[library], "two"), is("common book", "8"));
         assert_eq!(with(&[(one, more)], "two"), is("", "2"));
         assert_eq!(with(&[(one, more)], "one"), is("book", "6"));
-        // The book has not been touched.
+        // The book is unchanged.
         for program in ["one", "two"] {
             assert_eq!(from(program), (vec![], "2".to_owned()));
         }
-        // What the book has compiled since is found.
+        // Results the book has compiled since are found.
         fs::write(root.join("samples/two.rs"), PROGRAM.replace("+ 1", "+ 2")).unwrap();
         assert_eq!(from("two").1, "3");
         assert_eq!(with(&[(one, more)], "two"), is("", "3"));
-        // So is what it has not.
+        // And so are changes that it has not compiled.
         fs::write(root.join("samples/two.rs"), PROGRAM.replace("+ 1", "+ 3")).unwrap();
         assert_eq!(with(&[(one, more)], "two"), is("book", "4"));
     }

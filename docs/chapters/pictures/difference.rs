@@ -2,21 +2,21 @@
 
 use common::app::Picture;
 
-/// The mean difference of all channels as a PNG would have them, of 1.
+/// The mean difference of all channels after conversion to PNG, from 0 to 1.
 pub fn mean_difference(a: &Picture, b: &Picture) -> f64 {
     let (a, b) = (a.srgb(), b.srgb());
     let sum: u64 = a.iter().zip(&b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
     sum as f64 / 255.0 / a.len().max(1) as f64
 }
 
-/// The number of pixels that differ as a PNG would have them.
+/// The number of pixels that differ after conversion to PNG.
 pub fn pixels_apart(a: &Picture, b: &Picture) -> usize {
     let (a, b) = (a.srgb(), b.srgb());
     a.chunks(3).zip(b.chunks(3)).filter(|(a, b)| a != b).count()
 }
 
-/// The numbers of pixels darker and brighter than another picture's, as a PNG would have them; one that
-/// only changes its colour counts as darker.
+/// The numbers of pixels darker and brighter than another picture's after conversion to PNG; one that only
+/// changes its colour counts as darker.
 pub fn darker_and_brighter(own: &Picture, other: &Picture) -> (usize, usize) {
     let (own, other) = (own.srgb(), other.srgb());
     let sum = |pixel: &[u8]| pixel.iter().map(|c| u32::from(*c)).sum::<u32>();
@@ -26,7 +26,8 @@ pub fn darker_and_brighter(own: &Picture, other: &Picture) -> (usize, usize) {
     })
 }
 
-/// A picture of the pixels that differ between two of one size, in red; the first is faint behind it.
+/// A picture that marks the pixels that differ between two of one size in red, over a faint copy of the
+/// first.
 pub fn marked(own: &Picture, other: &Picture) -> Picture {
     let pairs =
         own.srgb().chunks(3).zip(other.srgb().chunks(3)).map(|(a, b)| a != b).collect::<Vec<_>>();
@@ -42,7 +43,7 @@ pub fn marked(own: &Picture, other: &Picture) -> Picture {
     Picture { width: own.width, height: own.height, pixels }
 }
 
-/// Compares two pictures to the bit.
+/// Compares two pictures bit by bit.
 pub fn same_bits(a: &Picture, b: &Picture) -> bool {
     let bits = |picture: &Picture| -> Vec<[u32; 4]> {
         picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
@@ -62,7 +63,7 @@ mod tests {
         let mut spot = plain(0.3);
         spot.pixels[4][1] = 0.7;
         assert_eq!(pixels_apart(&plain(0.3), &spot), 1);
-        // Less than a step of 255: another float, the same pixel of a PNG.
+        // Less than a step of 1/255: another float, the same pixel of a PNG.
         spot.pixels[4][1] = 0.300_000_1;
         assert_eq!(pixels_apart(&plain(0.3), &spot), 0);
         assert!(!same_bits(&plain(0.3), &spot) && same_bits(&spot, &spot));

@@ -1,14 +1,14 @@
-//! Pictures that are made larger than a page shows them, so that their edges are smooth.
+//! Pictures that are rendered larger than a page shows them, so that their edges are smooth.
 //!
-//! Most chapters trace one ray a pixel. A picture of 1920 by 1200 that is shown as 960 by 600 has four.
+//! Most chapters trace one ray per pixel. A picture of 1920 by 1200 shown as 960 by 600 has four.
 
 use common::app::Picture;
 
 /// The width of a picture on a page, in pixels.
 const WIDTH: u32 = 960;
 
-/// The size of a run's picture over its size on the page, in each direction: a whole number. One that moves is not
-/// shrunk.
+/// The size of a run's picture over its size on the page, in each direction: a whole number. Moving pictures
+/// are not shrunk.
 pub fn times(arguments: &[String]) -> u32 {
     if arguments.iter().any(|word| word == "--animate") {
         return 1;
@@ -19,9 +19,9 @@ pub fn times(arguments: &[String]) -> u32 {
     if width.is_multiple_of(WIDTH) { (width / WIDTH).max(1) } else { 1 }
 }
 
-/// Replaces each square of pixels by its mean; what does not fill a square is left out.
+/// Replaces each square of pixels by its mean; incomplete squares are left out.
 ///
-/// A pixel counts as no more than white, as on a screen: else one bright glint would hide its neighbours.
+/// A pixel counts as white at most, as on a screen: otherwise a bright glint would hide its neighbours.
 pub fn shrunk(picture: &Picture, times: u32) -> Picture {
     let (width, height) = (picture.width / times, picture.height / times);
     let mean = |(x, y): (u32, u32)| {

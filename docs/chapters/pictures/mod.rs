@@ -1,4 +1,4 @@
-//! The pages' pictures: rendered by the commands that the pages print, and stamped with what made them.
+//! The pages' pictures: rendered by the commands printed on the pages, and stamped with their maker.
 
 pub mod difference;
 pub mod downscale;

@@ -1,4 +1,4 @@
-//! A picture of a page: made by the commands that the page prints.
+//! A picture of a page, made by the commands printed on the page.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use crate::programs::program::Programs;
 /// The largest width of a row of panels, without the gaps, in pixels.
 const ROW: u32 = 960;
 
-/// A picture that a page's command makes, or several commands, each a panel of it.
+/// A picture made by a page's command, or by several commands, one for each panel.
 pub struct Picture {
     /// The page.
     pub page: String,
@@ -33,7 +33,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Every picture that a page makes, and what is wrong with their markers.
+    /// Every picture made by a page, and the faults of their markers.
     pub fn all(project: &Project, pages: &[Page]) -> (Vec<Self>, Vec<Fault>) {
         let (mut pictures, mut faults) = (Vec::<Self>::new(), Vec::new());
         let marks =
@@ -62,7 +62,7 @@ impl Picture {
     /// The picture of a marker on a page.
     ///
     /// # Errors
-    /// If there is no run of a chapter below it, or several and not each has a label.
+    /// If there is no run of a chapter below it, or several that do not each have a label.
     fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
         let wrong = |what: &str, remedy: &str| Fault::new(&*page.path, mark.line + 2, what, remedy);
         let renderings = Rendering::all(project, &mark.command, mark.step.as_deref());
@@ -93,7 +93,7 @@ impl Picture {
         format!("docs/images/{}.png", self.name)
     }
 
-    /// The chapter whose program makes it.
+    /// The chapter of the program that makes it.
     pub fn chapter(&self) -> &str {
         &self.renderings[0].chapter
     }
@@ -109,8 +109,8 @@ impl Picture {
         format!("run: cargo chapters sync --pictures {}", self.name)
     }
 
-    /// Renders it into its file, unless that has the same pixels already; returns its maker, and whether the file
-    /// has changed.
+    /// Renders it into its file, unless the file already has the same pixels; returns its maker, and whether
+    /// the file has changed.
     ///
     /// # Errors
     /// As [`Picture::make`], or if the file cannot be written.
@@ -141,7 +141,7 @@ impl Picture {
         Ok((files.swap_remove(0), maker))
     }
 
-    /// Its panels under their labels, as many in a row as a page has room for.
+    /// Its panels under their labels, as many in a row as fit on a page.
     fn side_by_side(&self, pictures: Vec<RgbImage>) -> Result<RgbImage> {
         let size = pictures[0].dimensions();
         ensure!(pictures.iter().all(|one| one.dimensions() == size), "its panels differ in size");

@@ -19,11 +19,11 @@ use crate::programs::program::Programs;
 
 /// A run that writes a picture.
 pub struct Rendering {
-    /// The label over it where it is a panel: the line `# LABEL` above the command.
+    /// The label above its panel, from the line `# LABEL` above the command.
     pub label: Option<String>,
-    /// The chapter whose program runs, or the name of the reader's own program.
+    /// The chapter of the program, or the name of the reader's own program.
     pub chapter: String,
-    /// The step of the page after which the reader's own program runs.
+    /// The step of the page after which the reader's own program is run.
     step: usize,
     /// The program's arguments.
     arguments: Vec<String>,
@@ -33,7 +33,7 @@ impl Rendering {
     /// The runs in a shell text.
     ///
     /// # Errors
-    /// The fault of one that is no run of a chapter or writes no picture, and its remedy.
+    /// The fault of one that does not run a chapter or writes no picture, and its remedy.
     pub fn all(
         project: &Project,
         text: &str,
@@ -66,7 +66,7 @@ impl Rendering {
         Ok(Self { label, chapter, step, arguments: run.arguments.clone() })
     }
 
-    /// Renders it into a PNG, and returns its maker. What is larger than a page shows it is shrunk.
+    /// Renders it into a PNG, and returns its maker. A picture larger than on the page is shrunk.
     ///
     /// # Errors
     /// If the program is missing or fails.
@@ -81,7 +81,7 @@ impl Rendering {
             let shaders = NewFolder::temporary()?;
             let mut command = own_program::command(programs, self.step, shaders.path())?;
             run(command.args(&arguments))?;
-            // It writes no report. The book's first program runs on the same device.
+            // The reader's program writes no report. The book's first program runs on the same device.
             let first = programs.project.default_run.as_deref().context("no program by default")?;
             let tiny = ["--headless", "--size", "8x8", "--report"];
             run(programs.built(first)?.args(tiny).arg(&report))?;

@@ -18,33 +18,33 @@ const DRIVER: &str = "Driver";
 pub struct Maker {
     /// The device's name.
     pub device: String,
-    /// The driver, in its maker's words.
+    /// The driver, as its maker names it.
     pub driver: String,
 }
 
 impl Maker {
-    /// The maker that a sample's report names.
+    /// The maker named in a sample's report.
     pub fn of(report: &serde_json::Value) -> Self {
         let text = |key: &str| report[key].as_str().unwrap_or("unknown").to_owned();
         Self { device: text("device"), driver: text("driver") }
     }
 }
 
-/// A picture of a page, as its PNG has it.
+/// A picture of a page, read from its PNG.
 pub struct Stored {
-    /// The command that made it; empty if it does not say.
+    /// The command that made it; empty if unknown.
     pub command: String,
     /// The device that ran it.
     pub maker: Maker,
-    /// Its frames: one, unless it moves.
+    /// Its frames: one, unless the picture moves.
     pub frames: Vec<RgbImage>,
 }
 
 impl Stored {
-    /// Reads a PNG, with all frames of one that moves.
+    /// Reads a PNG, with all frames of a moving picture.
     ///
     /// # Errors
-    /// If the file is missing or no PNG of 8 bits.
+    /// If the file is missing or not a PNG of 8 bits.
     pub fn open(file: &Path) -> Result<Self> {
         let mut decoder = png::Decoder::new(BufReader::new(File::open(file)?));
         decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
@@ -68,8 +68,7 @@ impl Stored {
     }
 }
 
-/// The fault of a picture that this command should have made, if it has one. Only running the command tells whether it
-/// would still make it.
+/// The fault of a picture that this command should have made, if it has one. This does not run the command.
 pub fn fault(project: &Project, file: &str, command: &str) -> Option<String> {
     if !project.has(file) {
         return Some(format!("the picture {file} is missing"));
@@ -94,11 +93,11 @@ fn texts(reader: &Reader) -> BTreeMap<String, String> {
     texts.iter().map(|text| (text.keyword.clone(), text.text.clone())).collect()
 }
 
-/// Stores a PNG as a page's picture, with its stamp and packed as small as it goes, and says whether that changed the
-/// file: one with the same pixels, command and device is left as it is.
+/// Stores a PNG as a page's picture, with its stamp and packed as small as possible, and returns whether that
+/// changed the file: one with the same pixels, command and device is left unchanged.
 ///
 /// # Errors
-/// If `made` is no PNG, or the picture cannot be written.
+/// If `made` is not a PNG, or the picture cannot be written.
 pub fn store(
     project: &Project,
     file: &str,
@@ -117,7 +116,7 @@ pub fn store(
     Ok(!is_same)
 }
 
-/// The bytes of a picture with its stamp, packed as small as they go.
+/// The bytes of a picture with its stamp, packed as small as possible.
 fn stamped(file: &Path, command: &str, maker: &Maker) -> Result<Vec<u8>> {
     let mut reader = decoder(file)?;
     let mut pixels = vec![0; reader.output_buffer_size().context("the picture is too large")?];
@@ -154,7 +153,7 @@ fn stamped(file: &Path, command: &str, maker: &Maker) -> Result<Vec<u8>> {
 /// Writes the stamp into a picture that is being encoded.
 ///
 /// # Errors
-/// If a text has letters beyond Latin-1.
+/// If a text contains letters beyond Latin-1.
 pub fn tell<W: Write>(
     encoder: &mut png::Encoder<'_, W>,
     command: &str,

@@ -37,7 +37,7 @@ pub fn check(project: &Project) -> Option<Fault> {
 /// Makes it, and reports how many pictures and bytes it has.
 ///
 /// # Errors
-/// If a chapter's picture cannot be read, or the moving one not be written.
+/// If a chapter's picture cannot be read, or the moving one cannot be written.
 pub fn make(project: &Project) -> Result<String> {
     let bytes = bytes(project)?;
     write_whole(&project.root.join(FILE), &bytes)?;
@@ -64,9 +64,9 @@ fn frame(project: &Project, chapter: &Chapter) -> Result<RgbaImage> {
     Ok(DynamicImage::ImageRgb8(framed).into_rgba8())
 }
 
-/// The frames in 256 colors, played once; whoever shows no moving pictures shows the last one.
+/// The frames in 256 colors, played once; programs that do not show moving pictures show the last one.
 fn animated(frames: &[RgbaImage]) -> Result<Vec<u8>> {
-    /// The palette is chosen from every so many pixels.
+    /// The palette is chosen from one pixel in this many.
     const EVERY: i32 = 7;
     let all: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw()).copied().collect();
     let colors = NeuQuant::new(EVERY, 256, &all);

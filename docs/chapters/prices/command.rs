@@ -1,4 +1,4 @@
-//! The command: measures every row, prints the table, and draws the picture if it is asked to.
+//! The command: measures every row and prints the table, or draws the picture instead.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -50,7 +50,7 @@ impl PricesArguments {
     /// Runs the command.
     ///
     /// # Errors
-    /// If no row has the word, or a program fails.
+    /// If no row contains the word, or a program fails.
     pub fn run(&self, project: &Project) -> Result<()> {
         interrupt::listen();
         let programs = Programs::beside_this(project)?;

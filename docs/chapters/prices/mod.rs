@@ -1,7 +1,7 @@
-//! `cargo chapters prices`: what accuracy costs, the table of `docs/prices.md`, measured on this device.
+//! `cargo chapters prices`: measures the cost of accuracy on this device, for the table of `docs/prices.md`.
 //!
-//! The rows stand once, in `docs/values/prices.md`: [`row`] reads them. [`timing`] runs the commands that gave their
-//! stored values, with fewer frames, and [`same_price`] draws the page's picture.
+//! The rows are listed once, in `docs/values/prices.md`, and read by [`row`]. [`timing`] runs the commands of
+//! their stored values with fewer frames, and [`same_price`] draws the page's picture.
 
 pub mod command;
 mod row;

@@ -1,4 +1,4 @@
-//! A row of the table of prices: its words, its stored values, and where they come from.
+//! A row of the table of prices: its words, its stored values, and their sources.
 
 use std::sync::LazyLock;
 
@@ -14,7 +14,7 @@ use crate::values::table;
 pub const PAGE: &str = "docs/prices.md";
 pub const TABLE: &str = "prices";
 
-/// The column of the software driver; before it stands what is measured, behind it the H200.
+/// The column of the software driver; it follows the description and precedes the H200.
 const SOFTWARE: usize = 1;
 
 /// A ratio in the template: `{42_distant_spheres/spheres.stable.ratio:0.00}`, or `{1/22_solids/…}` for its inverse.
@@ -23,22 +23,22 @@ static RATIO: LazyLock<Regex> = LazyLock::new(|| {
     Regex::new(pattern).expect("the pattern is right")
 });
 
-/// A link, of which a terminal shows the words alone.
+/// A link, of which a terminal shows only the text.
 static LINK: LazyLock<Regex> =
     LazyLock::new(|| Regex::new(r"\[([^\]]*)\]\([^)]*\)").expect("the pattern is right"));
 
 /// A row of the table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// What is divided by what, as plain words.
+    /// A description of the ratio, as plain words.
     pub what: String,
-    /// The ratios of the software driver and of the H200 as the page has them.
+    /// The ratios of the software driver and of the H200 as printed on the page.
     pub software: String,
     pub h200: String,
     /// The stored measurement, and the name of the value in it.
     pub record: String,
     pub value: String,
-    /// True if the row shows the inverse of what is stored.
+    /// True if the row shows the inverse of the stored value.
     pub inverted: bool,
 }
 
@@ -46,7 +46,7 @@ impl Row {
     /// All rows, in the page's order.
     ///
     /// # Errors
-    /// If the page has no such table, or a row names no stored ratio.
+    /// If the page has no such table, or a row contains no stored ratio.
     pub fn all(project: &Project, stored: &Records) -> Result<Vec<Self>> {
         let page = Page::parse(PAGE, &project.read(PAGE)?);
         let shown = table::body(project, &page, 1, TABLE, stored).map_err(|fault| fault.error())?;

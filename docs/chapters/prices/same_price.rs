@@ -1,7 +1,7 @@
 //! The picture "Same price": four things by the textbook and by ours, each with its time and its wrong pixels.
 //!
-//! A pixel is wrong if it differs from a reference by more than [`FAR_OFF`]. The reference is a picture that avoids
-//! the error: two floats, the same scene at the origin, or many rays per pixel.
+//! A pixel is wrong if it differs from a reference by more than [`FAR_OFF`]. The reference is a picture
+//! without the error: two floats, the same scene at the origin, or many rays per pixel.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ use crate::values::given;
 
 /// Size of a tile.
 const SIZE: (u32, u32) = (234, 234);
-/// Difference in a channel of 8-bit sRGB beyond which a pixel is wrong: one that an eye can see.
+/// Difference in a channel of 8-bit sRGB beyond which a pixel is wrong: visible to the eye.
 const FAR_OFF: u8 = 16;
 
 /// A column of the picture.
@@ -29,10 +29,10 @@ struct Tile {
     chapter: &'static str,
     /// Controls of all its pictures.
     sets: &'static [&'static str],
-    /// The control that chooses, the textbook's value, and ours.
+    /// The control, its value for the textbook, and its value for ours.
     control: &'static str,
     values: [&'static str; 2],
-    /// Controls of the reference, and by how many times it is wider and higher than a tile.
+    /// Controls of the reference, and the factor by which it is wider and higher than a tile.
     reference: &'static [&'static str],
     wider: u32,
 }
@@ -82,7 +82,7 @@ pub fn programs() -> [&'static str; TILES.len()] {
     TILES.map(|tile| tile.chapter)
 }
 
-/// Draws the picture into a file; returns what stands in its tiles, as a text.
+/// Draws the picture into a file; returns the contents of its tiles as text.
 ///
 /// # Errors
 /// If a program fails, or the file cannot be written.
@@ -127,7 +127,8 @@ impl Artist<'_> {
         arguments.into_iter().map(str::to_owned).collect()
     }
 
-    /// A picture of a tile's size; rendered so many times wider and higher, and then each pixel the mean of a square.
+    /// A picture of a tile's size, rendered this many times wider and higher and then averaged over squares
+    /// of pixels.
     fn picture(&self, tile: &Tile, more: &[&str], wider: u32) -> Result<RgbImage> {
         let file = self.folder.join("tile.exr");
         let mut command = self.programs.built(tile.chapter)?;
@@ -141,7 +142,7 @@ impl Artist<'_> {
         pixels.context("a picture has three bytes for each pixel")
     }
 
-    /// Milliseconds of both values, timed in turns.
+    /// Milliseconds of both values, timed alternately.
     fn times(&self, tile: &Tile) -> Result<[f64; 2]> {
         let mut arguments = self.arguments(tile, &[], SIZE);
         arguments.extend(["--frames".to_owned(), self.rounds.to_string(), "--compare".to_owned()]);
@@ -155,7 +156,7 @@ impl Artist<'_> {
     }
 }
 
-/// Pixels that are farther off than [`FAR_OFF`] in a channel.
+/// The number of pixels that differ by more than [`FAR_OFF`] in a channel.
 fn wrong(picture: &RgbImage, reference: &RgbImage) -> usize {
     let differs = |(a, b): &(&image::Rgb<u8>, &image::Rgb<u8>)| {
         a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > FAR_OFF)

@@ -12,7 +12,8 @@ use crate::programs::program::Programs;
 use crate::values::given;
 use crate::values::record::{Record, Records};
 
-/// The laboratory, whose stored times come from a test of minutes; here it is run by itself.
+/// The chapter that measures accuracy. Its stored times come from a test that takes minutes; here it runs by
+/// itself.
 const LABORATORY: &str = "24_accuracy";
 /// The primitive of a rung, by the first letter of its label.
 const PRIMITIVES: [(char, &str); 5] =
@@ -27,23 +28,23 @@ pub struct Quartiles {
 }
 
 impl Quartiles {
-    /// The inverse: what was below is above.
+    /// The quartiles of the inverse, in order.
     fn inverse(self) -> Self {
         Self { low: 1.0 / self.high, median: 1.0 / self.median, high: 1.0 / self.low }
     }
 }
 
-/// How the rows are measured.
+/// The settings of a measurement.
 pub struct Timing<'a> {
     pub programs: &'a Programs<'a>,
     pub stored: &'a Records,
     /// Rounds of each comparison.
     pub rounds: u32,
-    /// The device, as `--device` names it.
+    /// The device, as given to `--device`.
     pub device: Option<&'a str>,
 }
 
-/// A device's answer to a measurement: its name and driver, and a ratio for each row.
+/// The results on a device: its name and driver, and a ratio for each row.
 pub struct Timed {
     pub device: String,
     pub driver: String,
@@ -51,18 +52,18 @@ pub struct Timed {
 }
 
 impl Timing<'_> {
-    /// The program that measures rows of a stored measurement.
+    /// The program that measures the rows of a stored measurement.
     pub fn program(&self, record: &str) -> String {
         let stored = self.stored.get(record).map_or("", |record| &record.command);
         let bin = command_line::runs(stored).pop().and_then(|(_, run)| run.bin);
-        // What a test has measured is a chapter's own.
+        // A test's measurement belongs to a chapter.
         bin.unwrap_or_else(|| record.split('/').next().unwrap_or(record).to_owned())
     }
 
     /// Measures rows of one stored measurement in one run.
     ///
     /// # Errors
-    /// If its program fails, or does not know a value.
+    /// If the program fails, or does not know a value.
     pub fn measure(&self, record: &str, rows: &[&Row]) -> Result<Timed> {
         let measured = if self.program(record) == LABORATORY {
             self.laboratory(rows)?
@@ -81,7 +82,7 @@ impl Timing<'_> {
         Ok(Timed { device: measured.device, driver: measured.driver, ratios })
     }
 
-    /// The stored command with these values alone, and as many rounds as are wanted.
+    /// The stored command restricted to these values, with the requested number of rounds.
     fn command(&self, stored: &str, rows: &[&Row]) -> Result<String> {
         let runs = command_line::runs(stored);
         let [(_, run)] = &runs[..] else { bail!("'{stored}' is not one `cargo run`") };
@@ -109,7 +110,7 @@ impl Timing<'_> {
         Ok(format!("cargo run --bin {bin} -- {}", quoted(&arguments)))
     }
 
-    /// Rungs of 24, each over the cheapest of its primitive.
+    /// Rungs of 24, each relative to the cheapest of its primitive.
     fn laboratory(&self, rows: &[&Row]) -> Result<Record> {
         let folder = NewFolder::temporary()?;
         let mut command = self.programs.built(LABORATORY)?;

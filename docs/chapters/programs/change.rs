@@ -1,4 +1,4 @@
-//! Files that have changed since a commit, as git tells.
+//! Files that have changed since a commit, according to git.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,8 +16,8 @@ pub fn text(root: &Path, arguments: &[&str]) -> String {
     output.map_or_else(String::new, |output| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The files that differ from the last commit; in a clean tree, from the commit before, or the one that
-/// [`SINCE`] names.
+/// The files that differ from the last commit; in a clean tree, from the commit before, or from the one named
+/// by [`SINCE`].
 fn files(root: &Path) -> Vec<String> {
     let list = |text: String| text.lines().map(str::to_owned).collect::<Vec<_>>();
     let mut found = list(text(root, &["diff", "--name-only", "HEAD"]));

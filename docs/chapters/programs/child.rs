@@ -1,4 +1,4 @@
-//! A child process, run to its end, or to the end of our patience.
+//! Runs a child process until it ends or exceeds its limit.
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -13,9 +13,9 @@ use time_limit::{GLANCE, Limit, Work};
 
 use super::interrupt;
 
-/// After which a wait says what it waits for.
+/// The time after which a wait prints a message.
 const SILENCE: Duration = Duration::from_secs(1);
-/// The time between two such lines: a build takes minutes, and silence looks like a fault.
+/// The time between two messages: a build takes minutes, and silence looks like a fault.
 const AGAIN: Duration = Duration::from_secs(60);
 
 /// The end of a program.
@@ -40,13 +40,13 @@ impl Ended {
         self.said.trim().replace('\n', " ")
     }
 
-    /// In one line what was wrong with its arguments, if that is what it says: exit code 2.
+    /// The error in its arguments, in one line, if it exited with code 2.
     pub fn refused(&self) -> Option<String> {
         let code = self.status.and_then(|status| status.code());
         self.failed().filter(|_| code == Some(2))
     }
 
-    /// In one line why it failed; `None` if it did not.
+    /// The reason why it failed, in one line; `None` if it did not.
     pub fn failed(&self) -> Option<String> {
         let Some(status) = self.status else {
             return Some(format!("stopped after {} without an end", self.limit));
@@ -63,7 +63,7 @@ impl Ended {
     }
 }
 
-/// Cargo, in a folder: the one that runs us, if one does.
+/// Cargo, in a folder: the one that runs this program, if there is one.
 pub fn cargo(folder: &Path) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(folder);
@@ -73,7 +73,7 @@ pub fn cargo(folder: &Path) -> Command {
 /// Starts a command.
 ///
 /// # Errors
-/// If it does not start; the line names the program.
+/// If it does not start; the message names the program.
 pub fn start(command: &mut Command) -> Result<Child> {
     command.spawn().with_context(|| {
         let program = Path::new(command.get_program()).file_name().unwrap_or_default();
@@ -81,21 +81,21 @@ pub fn start(command: &mut Command) -> Result<Child> {
     })
 }
 
-/// Runs a command, and kills it if it takes more than it may.
+/// Runs a command, and kills it if it exceeds its limit.
 ///
 /// # Errors
-/// If it does not start, or a signal asks for our end.
+/// If it does not start, or a signal requests termination.
 pub fn run(command: &mut Command, limit: Limit) -> Result<Ended> {
     run_saying(command, limit, "")
 }
 
-/// As [`run`]; if it takes more than a moment, a line on standard error says what is waited for, unless that is
-/// empty, and then each minute.
+/// As [`run`]; if it takes long, and then each minute, a line on standard error says what is waited for,
+/// unless `what` is empty.
 ///
 /// # Errors
 /// As [`run`].
 pub fn run_saying(command: &mut Command, limit: Limit, what: &str) -> Result<Ended> {
-    // Files and no pipes: nobody has to read them while the program runs.
+    // Files rather than pipes: nobody has to read them while the program runs.
     let file = || tempfile::tempfile().context("cannot make a temporary file");
     let (mut output, mut errors) = (file()?, file()?);
     command.stdin(Stdio::null()).stdout(output.try_clone()?).stderr(errors.try_clone()?);
@@ -104,7 +104,7 @@ pub fn run_saying(command: &mut Command, limit: Limit, what: &str) -> Result<End
     Ok(Ended { status, said, told, limit })
 }
 
-/// Runs a command that prints as it goes, however long it takes.
+/// Runs a command that prints as it goes, without a limit.
 ///
 /// # Errors
 /// As [`run`].
@@ -112,10 +112,10 @@ pub fn show(command: &mut Command) -> Result<ExitStatus> {
     wait(&mut start(command)?, Limit::NONE)?.context("it was stopped")
 }
 
-/// Waits for its end; there is no status if it has taken more than it may and is killed.
+/// Waits for its end; the status is `None` if it exceeded its limit and was killed.
 ///
 /// # Errors
-/// If a signal asks for our end, for which the child is killed, or the system does not tell of the child's.
+/// If a signal requests termination, in which case the child is killed, or the system call fails.
 pub fn wait(child: &mut Child, limit: Limit) -> Result<Option<ExitStatus>> {
     wait_saying(child, limit, "")
 }
@@ -151,7 +151,7 @@ fn read(file: &mut File) -> Result<String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The system's name of a crash, if this is one.
+/// The system's name of a crash, if the status is one.
 #[cfg(unix)]
 fn crash(status: ExitStatus) -> Option<String> {
     use std::os::unix::process::ExitStatusExt;
@@ -168,7 +168,7 @@ fn crash(status: ExitStatus) -> Option<String> {
     Some(known.map_or_else(|| format!("signal {signal}"), |(_, name)| name.to_owned()))
 }
 
-/// The system's name of a crash, if this is one.
+/// The system's name of a crash, if the status is one.
 #[cfg(not(unix))]
 fn crash(status: ExitStatus) -> Option<String> {
     let code = status.code()? as u32;

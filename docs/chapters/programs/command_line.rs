@@ -5,7 +5,7 @@ use manuscript::project::Project;
 /// A `cargo run`, or a `cargo chapters`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CommandLine {
-    /// The program, where the command names one.
+    /// The program, if the command names one.
     pub bin: Option<String>,
     /// The program's arguments.
     pub arguments: Vec<String>,
@@ -31,7 +31,7 @@ pub fn runs(text: &str) -> Vec<(usize, CommandLine)> {
 fn run(words: &[String]) -> Option<CommandLine> {
     let redirect = |word: &String| word.trim_start_matches(['1', '2', '&']).starts_with('>');
     let words = words.split(redirect).next().unwrap_or_default();
-    // What stands before is the environment, `NAME=value`.
+    // The words before it set the environment, `NAME=value`.
     let start = words.iter().position(|word| !word.contains('='))?;
     match words[start..].iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["cargo", "run", ..] => {}
@@ -54,18 +54,18 @@ fn run(words: &[String]) -> Option<CommandLine> {
 }
 
 impl CommandLine {
-    /// The program that runs: the one named, else the project's default.
+    /// The program that runs: the named one, or else the project's default.
     pub fn program<'a>(&'a self, project: &'a Project) -> Option<&'a str> {
         self.bin.as_deref().or(project.default_run.as_deref())
     }
 }
 
-/// A command in one line, its words one blank apart.
+/// A command in one line, its words separated by single blanks.
 pub fn in_a_line(command: &str) -> String {
     command.replace("\\\n", " ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Words as a shell takes them.
+/// Words quoted for a shell.
 pub fn quoted(words: &[String]) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
     let word =

@@ -1,6 +1,6 @@
-//! The controls of a sample, as its program lists them.
+//! The controls of a sample, as listed by its program.
 
-/// A control, as `--list-controls` prints it.
+/// A control, as printed by `--list-controls`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Control {
     /// Its name.
@@ -18,7 +18,7 @@ pub struct Control {
 pub struct Controls(pub Vec<Control>);
 
 impl Controls {
-    /// Reads what `--list-controls` printed.
+    /// Parses the output of `--list-controls`.
     pub fn parse(printed: &str) -> Self {
         let control = |line: &str| {
             let fields: Vec<&str> = line.trim_end_matches('\r').split('\t').collect();
@@ -43,7 +43,7 @@ impl Controls {
         table
     }
 
-    /// The reason why a control cannot be set to a value, if it cannot.
+    /// The reason why a control cannot be set to a value; `None` if it can.
     pub fn refuse(&self, name: &str, value: &str) -> Option<String> {
         let Some(control) = self.0.iter().find(|control| control.name == name) else {
             let names: Vec<&str> = self.0.iter().map(|control| &*control.name).collect();

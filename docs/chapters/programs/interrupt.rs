@@ -1,5 +1,5 @@
-//! The end that a signal asks for: Ctrl-C, a closed terminal, `kill`. What waits asks [`asked`] and gives up, so
-//! that windows are closed and temporary folders removed on the way out.
+//! Termination requested by a signal: Ctrl-C, a closed terminal, `kill`. Code that waits checks [`asked`] and
+//! gives up, so that windows are closed and temporary folders removed.
 
 use std::sync::OnceLock;
 
@@ -8,12 +8,12 @@ use common::exit::Interrupt;
 
 static INTERRUPT: OnceLock<Interrupt> = OnceLock::new();
 
-/// From here on the first signal ends what waits, and not the whole process at once.
+/// From here on, the first signal ends a wait instead of the whole process.
 pub fn listen() {
     INTERRUPT.get_or_init(Interrupt::listen);
 }
 
-/// Fails if a signal has asked for the end.
+/// Fails if a signal has requested termination.
 ///
 /// # Errors
 /// In one line.

@@ -1,6 +1,7 @@
-//! Programs that the tool runs: the samples as they are built, Cargo, and how each ends.
+//! Programs that the tool runs: the built samples, Cargo, and how each ends.
 //!
-//! [`child`] starts every process and waits for its end; [`interrupt`] is the signal that asks for ours.
+//! [`child`] starts every process and waits for its end; [`interrupt`] handles the signal that requests
+//! termination.
 
 pub mod change;
 pub mod child;

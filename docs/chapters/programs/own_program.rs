@@ -1,4 +1,4 @@
-//! The reader's own program, as `chapters start` makes it and as it is after each step of its page.
+//! The reader's own program, as made by `chapters start` and after each step of its page.
 
 use std::fs;
 use std::path::Path;
@@ -18,7 +18,7 @@ pub const TEMPLATE: &str = "docs/chapters/start/template";
 /// The folder of the steps.
 const FOLDER: &str = "docs/chapters/start";
 
-/// The steps of the page in order: the folder of the files that each changes, and the program with these changes.
+/// The steps of the page in order: the folder with each step's files, and the program with these changes.
 const STEPS: [(&str, &str); 6] = [
     ("template", NAME),
     ("second_light", "my_tracer_second_light"),
@@ -28,10 +28,10 @@ const STEPS: [(&str, &str); 6] = [
     ("smooth", "my_tracer_smooth"),
 ];
 
-/// The step with this name, by its place among all; without a name, the crate as it is made.
+/// The number of the step with this name; without a name, the crate as first made.
 ///
 /// # Errors
-/// The names that there are.
+/// The existing names.
 pub fn step(name: Option<&str>) -> Result<usize, String> {
     let Some(name) = name else { return Ok(0) };
     let found = STEPS.iter().position(|(step, _)| *step == name);
@@ -45,7 +45,7 @@ pub fn place(path: &str) -> &str {
     below.map_or(path, |(_, place)| place)
 }
 
-/// A command that runs the program after a step, with shaders that it writes below an empty folder.
+/// A command that runs the program after a step; its shaders are written below an empty folder.
 ///
 /// # Errors
 /// If the program is not built, or a shader cannot be copied.

@@ -1,4 +1,4 @@
-//! The samples as built programs: they lie beside this one, and tell their controls themselves.
+//! The samples as built programs, in the same folder as this one. Each program lists its own controls.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -23,14 +23,14 @@ pub struct Programs<'a> {
     known: Mutex<BTreeMap<String, Answer>>,
 }
 
-/// A sample's controls, or why it does not tell them.
+/// A sample's controls, or the reason why it cannot list them.
 type Answer = Result<Controls, String>;
 
 impl<'a> Programs<'a> {
-    /// The programs beside this one, run in a project.
+    /// The programs in the folder of this one, run in a project.
     ///
     /// # Errors
-    /// If the system does not say where this one is.
+    /// If the system does not report the path of this program.
     pub fn beside_this(project: &'a Project) -> Result<Self> {
         let this = std::env::current_exe().context("cannot tell where this program lies")?;
         let folder = this.parent().context("this program lies in no folder")?.to_owned();
@@ -40,7 +40,7 @@ impl<'a> Programs<'a> {
     /// A command that runs the program `name`.
     ///
     /// # Errors
-    /// If it is missing, or older than its sources; the line says how to build it.
+    /// If it is missing, or older than its sources; the message says how to build it.
     pub fn command(&self, name: &str) -> Result<Command, String> {
         let root = &self.project.root;
         let file = self.folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
@@ -75,7 +75,7 @@ impl<'a> Programs<'a> {
         if self.are_released() { "release" } else { "debug" }
     }
 
-    /// As [`Programs::command`]; the error says what to do, too.
+    /// As [`Programs::command`]; the error also says what to do.
     ///
     /// # Errors
     /// As there.
@@ -83,10 +83,11 @@ impl<'a> Programs<'a> {
         self.command(name).map_err(|what| anyhow!("{what}; {BUILD}"))
     }
 
-    /// Asks several programs for their controls at once; [`Programs::controls`] then answers from memory.
+    /// Reads the controls of several programs at once; [`Programs::controls`] then returns the cached
+    /// results.
     ///
     /// # Errors
-    /// If the system cannot start one.
+    /// If one cannot be started.
     pub fn ask(&self, names: &[&str]) -> Result<()> {
         workers::each(names, |name| self.answer(name).map(drop)).into_iter().collect()
     }
@@ -99,7 +100,7 @@ impl<'a> Programs<'a> {
         self.answer(name).unwrap_or_else(|error| Err(format!("{error:#}")))
     }
 
-    /// Checks whether a sample itself takes these arguments, which may be its own or depend on one another.
+    /// Checks whether a sample itself accepts these arguments, which may be its own or depend on one another.
     ///
     /// # Errors
     /// If it cannot be run.
@@ -109,8 +110,7 @@ impl<'a> Programs<'a> {
         ended.map(|ended| ended.succeeded()).map_err(|error| format!("{error:#}"))
     }
 
-    /// The list of a sample's controls, or the reason why it cannot be had; from memory, if it was
-    /// asked before.
+    /// The list of a sample's controls, or the reason why it is not available; cached.
     fn answer(&self, name: &str) -> Result<Answer> {
         let known = || self.known.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if let Some(answer) = known().get(name) {
@@ -141,7 +141,7 @@ fn modified(file: &Path) -> Option<SystemTime> {
     fs::metadata(file).and_then(|found| found.modified()).ok()
 }
 
-/// The files after the colon of a make rule, in which a blank in a name is `\ `.
+/// The files after the colon of a make rule, where a blank in a name is written `\ `.
 fn sources(rule: &str) -> Vec<String> {
     let files = rule.split_once(": ").map_or("", |(_, files)| files.trim_end());
     let files = files.replace("\\ ", "\0");

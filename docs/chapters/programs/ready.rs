@@ -1,4 +1,4 @@
-//! Programs that a command needs: built before it begins, if they are missing or older than their sources.
+//! Builds the programs that a command needs, if they are missing or older than their sources.
 
 use anyhow::{Result, bail};
 use common::output::complain;
@@ -6,10 +6,10 @@ use common::output::complain;
 use super::child;
 use super::program::Programs;
 
-/// Builds those of the programs that are not ready, and says so.
+/// Builds the programs that are not ready, and says so.
 ///
 /// # Errors
-/// If one does not build: Cargo has said why.
+/// If one does not build; Cargo has printed the reason.
 pub fn build(programs: &Programs, names: &[&str]) -> Result<()> {
     let stale: Vec<&str> =
         names.iter().copied().filter(|name| programs.command(name).is_err()).collect();

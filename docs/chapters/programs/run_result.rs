@@ -15,7 +15,7 @@ use super::program::Programs;
 /// The result of a run.
 #[derive(Default)]
 pub struct RunResult {
-    /// The floats that the shader wrote; `None` if there is no picture.
+    /// The floats written by the shader; `None` if there is no picture.
     pub picture: Option<Picture>,
     /// `None` if it did not end.
     pub status: Option<ExitStatus>,
@@ -28,7 +28,7 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// Runs a program headless and under validation, and no longer than it may take.
+    /// Runs a program headless and under validation, within a limit.
     ///
     /// # Errors
     /// If it does not start.
@@ -36,7 +36,7 @@ impl RunResult {
         Self::saying(command, arguments, limit, "")
     }
 
-    /// As [`RunResult::of`], and says what is waited for if that takes long.
+    /// As [`RunResult::of`], and says what is waited for if it takes long.
     ///
     /// # Errors
     /// As there.
@@ -86,7 +86,8 @@ impl RunResult {
     }
 }
 
-/// Returns whether the device of this name is a software driver, by the list that a chapter's program prints.
+/// Returns whether the device of this name is a software driver, according to the list printed by a chapter's
+/// program.
 ///
 /// # Errors
 /// If the program is not built, or does not start.

@@ -1,4 +1,4 @@
-//! The tests of the project, as their sources have them.
+//! The tests of the project, read from their sources.
 
 use manuscript::project::Project;
 
@@ -6,7 +6,7 @@ use manuscript::project::Project;
 pub struct Test {
     /// Its name, as its program lists it.
     pub name: String,
-    /// The reason why plain `cargo test` leaves it out, if it does.
+    /// The reason why plain `cargo test` leaves it out; `None` if it does not.
     pub ignored: Option<String>,
     /// Its file and line.
     pub file: String,

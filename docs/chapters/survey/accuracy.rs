@@ -19,7 +19,7 @@ pub const RANDOM_RAYS: &str = "random rays";
 /// Its hard cases.
 const CASES: &str = "tests/data/hard_cases.json";
 
-/// Its runs, where the project has it: hard cases, then random rays. Their answers go to a folder.
+/// Its runs, if the project has the chapter: hard cases, then random rays. Their results go to a folder.
 pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
     if project.named(NAME).is_none() {
         return Vec::new();
@@ -32,10 +32,10 @@ pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)
     vec![(HARD_CASES, cases), (RANDOM_RAYS, measure)]
 }
 
-/// The file of the answers to the hard cases.
+/// The file of the results on the hard cases.
 const ANSWERS: &str = "cases.json";
 
-/// The number of cases each rung is right on.
+/// The number of cases in which each rung is right.
 pub fn hard_cases(failed: Option<String>, folder: &Path) -> HardCases {
     let rungs = || Ok(rows::<HardCase>(&read(&folder.join(ANSWERS))?["rungs"]));
     let (failed, rungs) = rungs_or_failure(failed, rungs);
@@ -49,7 +49,7 @@ pub fn measured(failed: Option<String>, folder: &Path) -> Measured {
     Measured { failed, rungs }
 }
 
-/// The rungs that a run has left, and the reason for its failure if it failed or left none.
+/// The rungs reported by a run, or the reason for its failure.
 fn rungs_or_failure<Rung>(
     failed: Option<String>,
     rungs: impl FnOnce() -> Result<Vec<Rung>>,

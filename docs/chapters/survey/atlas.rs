@@ -13,7 +13,7 @@ use super::command::{VALIDATE, device, read, told, words};
 /// The schema that 24 writes.
 const SCHEMA: &str = "rt-atlas/1";
 
-/// The arithmetic of a card of chapters.
+/// The arithmetic of a card with chapters.
 pub const DRIVER: &str = "driver";
 
 /// The numbers that `docs/what-hardware-computes.md` and its charts show.
@@ -37,11 +37,11 @@ const SHOWN: [&str; 17] = [
     "called again",
 ];
 
-/// The part of `24_accuracy --atlas` that a card keeps.
+/// The part of `24_accuracy --atlas` that is kept on a card.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Atlas {
-    /// The reason why there is none; `None` if there is.
+    /// The reason why there is none; `None` if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
     /// The value of `--arithmetic`.
@@ -93,7 +93,7 @@ pub fn found(failed: Option<String>, folder: &Path) -> (Atlas, Option<Device>, S
 }
 
 impl Atlas {
-    /// The part of a whole atlas that a card keeps.
+    /// Extracts the part that is kept on a card.
     fn of(whole: &Value) -> Result<Self> {
         let text = |value: &Value, key: &str| value[key].as_str().map(str::to_owned);
         let schema = text(whole, "schema").unwrap_or_default();
@@ -115,7 +115,7 @@ impl Atlas {
         })
     }
 
-    /// The fault of one that is no atlas and does not say why there is none.
+    /// The fault of a part that is invalid and does not say why there is no atlas.
     pub fn wrong(&self) -> Option<String> {
         if self.failed.is_some() {
             return None;

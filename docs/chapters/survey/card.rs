@@ -1,7 +1,7 @@
-//! A report card: what every chapter did on one device.
+//! A report card: the result of every chapter on one device.
 //!
-//! `chapters survey` makes it, as Markdown with every detail and as JSON with what the book reads. The JSON of cards
-//! that readers send in is stored in `docs/devices`, one file per device, and checked.
+//! `chapters survey` writes it, as Markdown with every detail and as JSON with the values used by the book.
+//! The JSON of cards sent in by readers is stored in `docs/devices`, one file per device, and checked.
 
 use common::gpu::Executable;
 use instruments::report::Limits;
@@ -20,18 +20,18 @@ pub const FOLDER: &str = "docs/devices";
 pub struct Card {
     /// The day, as `2026-11-22`.
     pub date: String,
-    /// Operating system and processor, as `linux x86_64`.
+    /// Operating system and processor, such as `linux x86_64`.
     pub system: String,
-    /// The commit of the project, with `+` if code or shaders differ from it; `None` where Git does not tell.
+    /// The commit of the project, with `+` if code or shaders differ from it; `None` if unknown to Git.
     #[serde(default)]
     pub commit: Option<String>,
     /// The device; `None` if no chapter found one.
     pub device: Option<Device>,
-    /// True if the chapters ran under validation.
+    /// True if the chapters were run under validation.
     pub validated: bool,
     /// The largest mean FLIP error that passes on the software driver, which made the golden pictures.
     pub tolerance: f32,
-    /// The size of the pictures whose time was taken.
+    /// The size of the timed pictures.
     #[serde(default = "small")]
     pub timed: String,
     /// Every chapter, by number.
@@ -40,13 +40,13 @@ pub struct Card {
     pub hard_cases: HardCases,
     /// A short measurement of chapter 24.
     pub measured: Measured,
-    /// The errors of its traversal, if they were measured. In another arithmetic than the driver's it is all that the
-    /// card has.
+    /// The errors of its traversal, if they were measured. For an arithmetic other than the driver's, the
+    /// card has nothing else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atlas: Option<Atlas>,
 }
 
-/// The size that the first cards do not name.
+/// The size of cards that predate this field.
 fn small() -> String {
     "480x300".to_owned()
 }
@@ -55,13 +55,13 @@ fn small() -> String {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Device {
-    /// Its name, as its driver gives it.
+    /// Its name, as reported by its driver.
     pub name: String,
-    /// Its driver, in its maker's words.
+    /// Its driver, as its maker names it.
     pub driver: String,
     /// Its version of Vulkan: major, minor, patch.
     pub vulkan: [u32; 3],
-    /// The limits that the chapters heed.
+    /// The limits that the chapters depend on.
     #[serde(skip)]
     pub limits: Limits,
 }
@@ -82,14 +82,14 @@ pub struct ChapterResult {
     /// The reason for its failure; `None` if it passes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
-    /// The extension that it needs and the device does not offer; then nothing was run.
+    /// The extension it needs that the device lacks; then nothing was run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lacks: Option<String>,
     /// The mean FLIP error of its picture against the golden one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_flip: Option<f32>,
-    /// The largest error that passes on this device, which rounds as Vulkan lets it; 1 where the picture shows the
-    /// device's own errors.
+    /// The largest error that passes on this device, which may round as Vulkan allows; 1 if the picture shows
+    /// the device's own errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f32>,
     /// The device's time for a frame of the card's size, the median.
@@ -98,15 +98,15 @@ pub struct ChapterResult {
     /// The number of validation messages.
     #[serde(skip)]
     pub validation_messages: usize,
-    /// The figures of the device's own compiler, if it tells any.
+    /// The statistics of the device's own compiler, if it reports any.
     #[serde(skip)]
     pub compiler: Vec<Executable>,
-    /// The figures of Mesa's compiler for AMD GPUs (RDNA 3), if it is installed.
+    /// The statistics of Mesa's compiler for AMD GPUs (RDNA 3), if it is installed.
     #[serde(skip)]
     pub radv: Vec<Radv>,
 }
 
-/// A program, as Mesa's compiler for AMD GPUs sees it.
+/// A program, as reported by Mesa's compiler for AMD GPUs.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "they are those of `--compile-for`")]
 pub struct Radv {
@@ -132,7 +132,7 @@ pub struct HardCases {
     pub cases: u64,
     /// The number of top rungs that the device cannot run.
     pub missing: u64,
-    /// Every rung, in both ways.
+    /// Every rung, called directly and traced.
     #[serde(skip)]
     pub rungs: Vec<HardCase>,
 }
@@ -153,7 +153,7 @@ impl HardCases {
     }
 }
 
-/// The number of hard cases a rung is right on.
+/// The number of hard cases in which a rung is right.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "they are those of `--cases`")]
 pub struct HardCase {
@@ -192,7 +192,7 @@ pub struct MeasuredRung {
     pub primitive: String,
     /// The rung's place.
     pub rung: String,
-    /// Its time by that of the ladder's plain rung, the middle of all rounds; `None` where it cannot be told.
+    /// Its time relative to the ladder's plain rung, the median of all rounds; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_ratio: Option<f64>,
     /// The rung's name.
@@ -210,8 +210,8 @@ pub struct MeasuredRung {
 }
 
 impl Card {
-    /// The name of its files, without extension: the device's, in small letters, and the arithmetic's if that is
-    /// not the driver's.
+    /// The name of its files, without extension: the device's name in small letters, and the arithmetic if it
+    /// is not the driver's.
     pub fn stem(&self) -> String {
         let name = self.device.as_ref().map_or("no device", |device| &device.name);
         let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { ' ' };
@@ -228,7 +228,7 @@ impl Card {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 
-    /// The arithmetic of its atlas, if that is not the driver's: then the card has nothing else.
+    /// The arithmetic of its atlas if it is not the driver's; then the card has nothing else.
     fn arithmetic(&self) -> Option<&str> {
         let arithmetic = self.atlas.as_ref()?.arithmetic.as_str();
         (!["", atlas::DRIVER].contains(&arithmetic)).then_some(arithmetic)
@@ -293,11 +293,11 @@ impl Card {
     }
 }
 
-/// The beginnings of paths that say whose machine it is.
+/// The beginnings of paths that reveal whose machine it is.
 const PRIVATE: [&str; 6] = ["/home/", "/Users/", "\\Users\\", "/root/", "/tmp/", "/mnt/"];
 
-/// A line without the paths of this machine: of each, only its last part. A path with blanks stands in
-/// quotation marks, as all that errors of this project tell.
+/// Removes the paths of this machine from a line, except for the last part of each. A path with blanks is in
+/// quotation marks, as in all error messages of this project.
 pub fn without_paths(line: &str) -> String {
     let mut text = String::new();
     for (index, piece) in line.split('\'').enumerate() {
@@ -334,7 +334,7 @@ fn words_without_paths(line: &str) -> String {
     text
 }
 
-/// Every card of the project, by the name of its file, and what is wrong with those that are none.
+/// All cards of the project, by file name, and the faults of invalid ones.
 pub fn all(project: &Project) -> (Vec<Card>, Vec<Fault>) {
     let (mut cards, mut faults) = (Vec::new(), Vec::new());
     let files = project.files(FOLDER);
@@ -401,7 +401,7 @@ mod tests {
         assert_eq!(Card::default().stem(), "no-device");
     }
 
-    /// A stored card has what the writer writes, and no more.
+    /// A stored card has exactly the form that the survey writes.
     #[test]
     fn stored_cards_are_as_the_survey_writes_them() {
         let tool = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -34,7 +34,7 @@ fn vulkan(device: &Device) -> String {
     device.vulkan.map(|part| part.to_string()).join(".")
 }
 
-/// In a word or a line, what came of a chapter.
+/// The result of a chapter, in a word or a line.
 fn result(chapter: &ChapterResult) -> String {
     match (&chapter.failed, &chapter.lacks) {
         (Some(why), _) => why.replace('|', "\\|"),
@@ -103,7 +103,7 @@ pub fn card(card: &Card) -> String {
 
 /// The atlas as Markdown, below a card's other sections.
 pub fn atlas(text: &str) -> String {
-    // Its title becomes a section, and its sections follow.
+    // Its title becomes a section, and its sections become subsections.
     format!("\n#{}", text.replace("\n## ", "\n### "))
 }
 
@@ -186,7 +186,7 @@ fn measured(card: &Card) -> String {
     text
 }
 
-/// All cards, a row a device.
+/// All cards, one row per device.
 pub fn devices(cards: &[Card]) -> String {
     let mut text = "| device | driver | Vulkan | system | chapters that pass | hard cases | validation | date |\n\
                     |---|---|---|---|---|---|---|---|\n"
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
     use crate::survey::card::{Measured, MeasuredRung};
 
-    /// Without quartiles the middle is shown alone.
+    /// Without quartiles, only the median is shown.
     #[test]
     fn a_time_has_its_quartiles() {
         let rung = |time_ratio, time_quartiles| MeasuredRung {

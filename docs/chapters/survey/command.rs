@@ -1,7 +1,7 @@
-//! `chapters survey`: every chapter on this device, each in a process of its own, and what came of it.
+//! `chapters survey`: runs every chapter on this device, each in its own process, and records the result.
 //!
-//! A chapter that fails, crashes, loses the device or does not end is a line of the card; the others still
-//! run. Nothing is written before all have.
+//! A chapter that fails, crashes, loses the device or hangs becomes a line of the card; the others still run.
+//! Nothing is written before all have finished.
 
 use std::error::Error;
 use std::fmt::{Display, Formatter};
@@ -27,8 +27,8 @@ use crate::programs::child::{self, Ended};
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
 
-/// The size of the picture whose time is taken, and how many. A GPU needs rays enough to be full, and some time for
-/// its clocks to rise.
+/// The size and number of the timed pictures. A GPU needs enough rays to be full, and some time to raise its
+/// clocks.
 const TIMED_ON_SOFTWARE: (&str, &str) = ("480x300", "9");
 const TIMED_ON_A_GPU: (&str, &str) = ("1920x1200", "61");
 
@@ -38,16 +38,16 @@ pub const VALIDATE: &str = "--validate";
 /// The atlas's name in the progress lines.
 const ATLAS: &str = "atlas";
 
-/// The first words of a program's error where there is no device at all.
+/// The start of a program's error message if there is no device.
 const NO_DRIVER: &str = "no Vulkan driver";
 
-/// The first words of its error where none of the devices will do.
+/// The start of its error message if no device is suitable.
 const NO_DEVICE: &str = "no device can run this";
 /// The name of a software driver's device, and the driver whose device made the golden pictures.
 const SOFTWARE: &str = "llvmpipe";
 const GOLDEN_DRIVER: &str = "llvmpipe Mesa 25.0.7";
 
-/// A device that executes nothing, as a stand-in for a card does: whatever its card would say were false.
+/// A device that executes nothing, such as a stand-in for a card: its results would be false.
 #[derive(Debug)]
 struct Idle {
     device: String,
@@ -70,16 +70,17 @@ impl Error for Idle {}
 pub struct Survey<'a> {
     /// Their programs.
     pub programs: &'a Programs<'a>,
-    /// The device, as `--device` names it.
+    /// The device, as given to `--device`.
     pub device: Option<&'a str>,
     /// The longest time of a program.
     pub limit: Limit,
-    /// The arithmetic of the atlas, if one is drawn; in another than the driver's it is drawn alone.
+    /// The arithmetic of the atlas, if one is requested; for one other than the driver's, only the atlas is
+    /// made.
     pub atlas: Option<&'a str>,
 }
 
 impl Survey<'_> {
-    /// The runs, a line for each program.
+    /// The runs, one line per program.
     pub fn list(&self) -> String {
         let project = self.programs.project;
         let line = |chapter: &Chapter| {
@@ -101,7 +102,7 @@ impl Survey<'_> {
         text
     }
 
-    /// Returns whether the card has an atlas alone.
+    /// Returns whether the card has only an atlas.
     fn is_alone(&self) -> bool {
         self.atlas.is_some_and(|arithmetic| arithmetic != atlas::DRIVER)
     }
@@ -118,11 +119,11 @@ impl Survey<'_> {
         runs
     }
 
-    /// Runs everything, says so a line a chapter, and writes the card to a folder.
+    /// Runs everything, prints a line per chapter, and writes the card to a folder.
     ///
     /// # Errors
-    /// If there is no device, it executes nothing, the card cannot be written, a signal asks for the end, or a
-    /// chapter fails: then the line says where the card is.
+    /// If there is no device, it executes nothing, the card cannot be written, a signal requests termination,
+    /// or a chapter fails; in the last case the message says where the card is.
     pub fn run(&self, out: &Path) -> Result<()> {
         let project = self.programs.project;
         interrupt::listen();
@@ -197,7 +198,7 @@ impl Survey<'_> {
         print(&format!("{passed}; the card is {files}\n"))
     }
 
-    /// The commit that is surveyed, marked if code or shaders differ from it.
+    /// The surveyed commit, marked if code or shaders differ from it.
     fn commit(&self) -> Option<String> {
         let git = |arguments: &[&str]| {
             let mut git = Command::new("git");
@@ -222,18 +223,18 @@ impl Survey<'_> {
         if self.programs.are_released() {
             cargo.arg("--release");
         }
-        // What does not build is told chapter by chapter.
+        // Build failures are reported chapter by chapter.
         child::show(&mut cargo).map(drop)
     }
 
-    /// Fails if there is no device, or `--device` names none, before anything is run for a card.
+    /// Fails early if there is no device, or `--device` matches none.
     fn check_device(&self) -> Result<()> {
         let Some(chapter) = self.programs.project.chapters.last() else { return Ok(()) };
         let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
         if let Some(line) = ended.refused().filter(|_| self.device.is_some()) {
             return Err(UsageError(line).into());
         }
-        // What else keeps a program from running is a line of the card.
+        // Any other failure becomes a line of the card.
         match ended.failed().filter(|line| line.starts_with(NO_DRIVER)) {
             Some(line) => bail!("{line}"),
             None => Ok(()),
@@ -243,7 +244,7 @@ impl Survey<'_> {
     /// Runs a program to its end.
     ///
     /// # Errors
-    /// If it cannot be run, or fails: in one line, why.
+    /// If it cannot be run, or fails; in one line.
     fn ask(&self, name: &str, arguments: &[String]) -> Result<()> {
         match self.end_of(name, arguments)?.failed() {
             Some(why) => bail!("{why}"),
@@ -262,7 +263,7 @@ impl Survey<'_> {
         child::run(command.args(arguments), self.limit)
     }
 
-    /// One chapter: its golden picture under validation, its time, and what compilers say.
+    /// Runs one chapter: its golden picture under validation, its time, and the compilers' statistics.
     ///
     /// # Errors
     /// If the device executes nothing.
@@ -279,7 +280,7 @@ impl Survey<'_> {
                 return Err(error);
             }
             let why = told(&error);
-            // Without what the chapter says that it needs, there is nothing to judge.
+            // A chapter whose requirements are missing is not judged.
             let lacking = chapter.needs.iter().find(|extension| {
                 why.starts_with(NO_DEVICE) && why.contains(&format!("lacks {extension}"))
             });
@@ -319,13 +320,13 @@ impl Survey<'_> {
         drawn.extend(chapter.golden.iter().map(String::as_str));
         let size = format!("{width}x{height}");
         let mut result = run(card.validated, &drawn, &size);
-        // A machine without the layer can still show whether its pictures are right.
+        // Without the layer, the pictures can still be compared.
         if card.validated && lacks_layer(&result) {
             card.validated = false;
             result = run(false, &drawn, &size);
         }
         let said = read(&report).unwrap_or_default();
-        // 01, which keeps everything in one file, tells no limits.
+        // 01, which is a single file, reports no limits.
         let known = card.device.as_ref().is_some_and(|device| device.limits != Limits::default());
         card.device = if known { card.device.take() } else { device(&said) };
         line.validation_messages = said["validation_messages"].as_array().map_or(0, Vec::len);
@@ -342,7 +343,7 @@ impl Survey<'_> {
         let tolerance = if made_golden {
             flip::TOLERANCE
         } else {
-            // A picture of the device's own errors may be any.
+            // A picture of the device's own errors may look like anything.
             flip::near::golden(&chapter.name, (width, height), flip::TOLERANCE).unwrap_or(1.0)
         };
         (line.mean_flip, line.tolerance) = (Some(mean), Some(tolerance));
@@ -353,7 +354,7 @@ impl Survey<'_> {
         let said = read(&report)?;
         line.milliseconds = said["gpu_milliseconds"]["median"].as_f64();
         line.compiler = rows(&said["executables"]);
-        // Where RADV is not installed, or refuses, there are no figures of it.
+        // RADV may be missing or refuse; then there are no statistics.
         if run(false, &["--compile-for", "navi31"], "8x8").is_ok() {
             line.radv = rows(&read(&report)?["compiled_for"]);
         }
@@ -369,7 +370,7 @@ fn lacks_layer(result: &Result<()>) -> bool {
     result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
 }
 
-/// Makes the folder for the card, and fails if the card could not be written there.
+/// Creates the folder for the card, and fails if the card could not be written there.
 fn check_place(out: &Path) -> Result<()> {
     let another = "name another folder with --out";
     if let Some(file) = file_on_the_way(out) {
@@ -381,7 +382,7 @@ fn check_place(out: &Path) -> Result<()> {
         .map_err(|error| anyhow!("the card cannot go to '{}': {error:#}; {another}", out.display()))
 }
 
-/// Says what has been done and how long the rest may take.
+/// Prints the progress and an estimate of the remaining time.
 struct Countdown {
     all: usize,
     done: usize,
@@ -413,25 +414,25 @@ pub fn words(words: &[&str]) -> Vec<String> {
     words.iter().map(|word| (*word).to_owned()).collect()
 }
 
-/// An error as the card has it: one line, and no path of this machine.
+/// An error in the form used on a card: one line, without paths of this machine.
 pub fn told(error: &anyhow::Error) -> String {
     card::without_paths(&format!("{error:#}").replace('\n', " "))
 }
 
-/// The report of a program.
+/// Reads the report of a program.
 pub fn read(report: &Path) -> Result<Value> {
     let text = fs::read_to_string(report).context("it has written no report")?;
     serde_json::from_str(&text).context("its report is no JSON")
 }
 
-/// The device of a report that has its limits.
+/// The device of a report, if the report has its limits.
 pub fn device(report: &Value) -> Option<Device> {
     let text = |key: &str| report[key].as_str().map(str::to_owned);
     let limits = serde_json::from_value(report["limits"].clone()).ok()?;
     Some(Device::new(text("device")?, text("driver")?, limits))
 }
 
-/// The rows of a list, those of another shape left out.
+/// The rows of a list, without those of another shape.
 pub fn rows<T: serde::de::DeserializeOwned>(list: &Value) -> Vec<T> {
     let rows = list.as_array().into_iter().flatten();
     rows.filter_map(|row| serde_json::from_value(row.clone()).ok()).collect()

@@ -1,4 +1,4 @@
-//! The survey: every chapter on a reader's device, and the report card that comes of it.
+//! The survey: runs every chapter on a reader's device and writes the report card.
 
 pub mod accuracy;
 pub mod atlas;

@@ -1,7 +1,7 @@
-//! Bindings: the comment behind a number that names the stored value which the number is.
+//! Bindings: the comment after a number that names its stored value.
 //!
-//! `59,050<!-- acne.lit -->` is the value `lit` of the page's own measurement `acne`, and `<!-- 05_shadow_miss/acne.lit
-//! -->` that of another page. The number's digits say how the value is rounded.
+//! `59,050<!-- acne.lit -->` is the value `lit` of the page's own measurement `acne`, and `<!--
+//! 05_shadow_miss/acne.lit -->` that of another page. The number's digits determine how the value is rounded.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -17,12 +17,12 @@ use super::passage::{self, line as line_of};
 use super::record::{self, Records};
 use super::{stamp, table};
 
-/// A comment that names a value: nothing but a measurement, a dot and the value's name.
+/// A comment that consists of a measurement, a dot and a value's name.
 static COMMENT: LazyLock<Regex> = LazyLock::new(|| {
     Regex::new(r"<!-- ?([\w-]+(?:/[\w-]+)?)\.([^>\n]+?) ?-->").expect("the pattern is right")
 });
 
-/// A number on a page, and the value that it is.
+/// A number on a page, and its value.
 struct Bound {
     number: Number,
     value: f64,
@@ -32,19 +32,19 @@ struct Bound {
     key: String,
 }
 
-/// A measurement's name with its page: its own, unless another is named.
+/// A measurement's name with its page, which defaults to this one.
 pub fn whole_name(page: &Page, name: &str) -> String {
     if name.contains('/') { name.to_owned() } else { format!("{}/{name}", page.stem()) }
 }
 
-/// The value of this name, of a measurement with its page; else what is wrong, and the remedy.
+/// The value of this name in a measurement given with its page; otherwise the fault and the remedy.
 pub fn value(stored: &Records, name: &str, key: &str) -> Result<f64, (String, String)> {
     let Some(record) = stored.get(name) else {
         return Err((format!("there is no measurement {name}"), record::renew(name)));
     };
     record.value(key).ok_or_else(|| {
         let mut there: Vec<&str> = record.values.keys().map(String::as_str).collect();
-        // A table has hundreds: those are shown that begin most like the one that was asked for.
+        // A table has hundreds: show those that share the longest prefix with the requested name.
         let shared = |name: &str| name.bytes().zip(key.bytes()).take_while(|(a, b)| a == b).count();
         there.sort_by_key(|name| std::cmp::Reverse(shared(name)));
         let (count, shown) = (there.len(), there[..there.len().min(8)].join(", "));
@@ -57,7 +57,7 @@ pub fn value(stored: &Records, name: &str, key: &str) -> Result<f64, (String, St
     })
 }
 
-/// The bound numbers of a page whose values are known, and the faults of the others.
+/// The bound numbers of a page with known values, and the faults of the others.
 fn all(page: &Page, text: &str, stored: &Records) -> (Vec<Bound>, Vec<Fault>) {
     let (mut bound, mut faults) = (Vec::new(), Vec::new());
     for comment in COMMENT.captures_iter(text) {
@@ -84,7 +84,7 @@ fn all(page: &Page, text: &str, stored: &Records) -> (Vec<Bound>, Vec<Fault>) {
     (bound, faults)
 }
 
-/// True inside a fenced block or between backticks, where a comment is an example.
+/// True inside a fenced block or between backticks, where a comment is only an example.
 fn is_code(text: &str, at: usize) -> bool {
     let before = &text[..at];
     let fences = before.lines().filter(|line| line.trim_start().starts_with("```")).count();
@@ -92,7 +92,7 @@ fn is_code(text: &str, at: usize) -> bool {
     fences % 2 == 1 || line.matches('`').count() % 2 == 1
 }
 
-/// Bound numbers that are not as stored, and a page that does not say which device gave its values.
+/// Bound numbers that differ from the stored values, and pages that do not name the device of their values.
 pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
     let text = page.written();
     let (bound, mut faults) = all(page, &text, stored);
@@ -104,7 +104,7 @@ pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
             faults.push(Fault::stale(&*page.path, line, what));
         }
     }
-    // The README has no room for it; every page that it links to has one.
+    // The README has no room for it; every page it links to has one.
     let first = bound.iter().find(|bound| stored[&bound.name].device != record::HOST);
     if let Some(first) = first.filter(|_| page.path.starts_with("docs/") && !stamp::is_on(page)) {
         let what = "this page does not say which device gave its values, and when";
@@ -114,7 +114,7 @@ pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
     faults
 }
 
-/// The measurements whose values a page shows, with their pages.
+/// The measurements used on a page, with their pages.
 pub fn measurements(project: &Project, page: &Page) -> BTreeSet<String> {
     let text = page.written();
     let named = COMMENT.captures_iter(&text);
@@ -125,21 +125,21 @@ pub fn measurements(project: &Project, page: &Page) -> BTreeSet<String> {
     names
 }
 
-/// The page with every bound number as it is stored.
+/// The page with every bound number replaced by its stored value.
 pub fn filled(page: &Page, stored: &Records) -> Page {
     let bound = all(page, &page.written(), stored).0;
     let change = |bound: &Bound| (bound.number.span.clone(), bound.number.like(bound.value));
     page.edited(bound.iter().map(change).collect())
 }
 
-/// Unbound numbers of three or more digits, with their lines: perhaps measured, and then better bound.
+/// Unbound numbers of three or more digits, with their lines. They may be measured and should then be bound.
 ///
 /// Round numbers, sizes, powers of two, years, versions and numbers in code are left out.
 pub fn unbound(page: &Page) -> Vec<(usize, String)> {
     let text = page.written();
     let parts = passage::all(&text).into_iter().flat_map(|passage| passage.text);
     let numbers = parts.flat_map(|part: Range<usize>| number::found(&text, part));
-    // What was measured is rarely round.
+    // Measured values are rarely round.
     let is_long = |number: &Number| {
         let digits = number.written.split('e').next().unwrap_or_default();
         let digits: String = digits.chars().filter(char::is_ascii_digit).collect();

@@ -1,5 +1,5 @@
-//! The compiled size of a chapter's default pipeline on a GPU, from `tests/gpus/budgets.json`: the tests of `gpus` ask
-//! the compiler, and what they have recorded need not be asked a second time.
+//! The compiled size of a chapter's default pipeline on a GPU, from `tests/gpus/budgets.json`: the tests of
+//! `gpus` run the compiler, and their recorded values need not be computed again.
 
 use std::collections::BTreeSet;
 
@@ -12,8 +12,8 @@ use crate::programs::command_line;
 
 const FILE: &str = "tests/gpus/budgets.json";
 
-/// The recorded values for a stored measurement's command and compiler. None if the command sets anything, or
-/// the pipeline is several programs, of which only the sums are recorded.
+/// The recorded values for a stored measurement's command and compiler. `None` if the command sets anything,
+/// or the pipeline is several programs, of which only the sums are recorded.
 pub fn values(project: &Project, stored: &Record) -> Option<Map<String, Value>> {
     let runs = command_line::runs(&stored.command);
     let [(_, run)] = &runs[..] else { return None };
@@ -34,7 +34,7 @@ pub fn values(project: &Project, stored: &Record) -> Option<Map<String, Value>> 
     (recorded.get("programs") == Some(&Value::from(1))).then(|| recorded.clone())
 }
 
-/// Chapters of which no compiler's figures are recorded, and records of chapters that are gone.
+/// Chapters without recorded figures, and records of chapters that no longer exist.
 pub fn check(project: &Project) -> Vec<Fault> {
     let Ok(text) = project.read(FILE) else { return Vec::new() };
     let renew = "run: UPDATE=1 cargo test --test gpus";
@@ -49,7 +49,7 @@ pub fn check(project: &Project) -> Vec<Fault> {
         .map(String::as_str)
         .collect();
     let missing = project.chapters.iter().filter(|chapter| {
-        // The first calls Vulkan by itself, and no compiler is asked.
+        // The first chapter calls Vulkan itself, without the compiler's statistics.
         chapter.from.is_some() && !known.contains(&*chapter.name)
     });
     let missing = missing.map(|chapter| format!("nothing is recorded of '{}'", chapter.name));

@@ -1,8 +1,8 @@
 //! The results of a measurement's command.
 //!
-//! A `cargo run` gives what its report holds of `--compare`, of `--compile-for`, else its times, its memory and
-//! the numbers of its chapter. A `cargo test` gives what the test holds with `figures::hold`, and writes that to
-//! the folder that the environment variable `FIGURES` names.
+//! The result of a `cargo run` is the part of its report for `--compare` or `--compile-for`, or else its
+//! times, its memory and the numbers of its chapter. The result of a `cargo test` consists of the values
+//! passed to `figures::hold`, which the test writes to the folder in the environment variable `FIGURES`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -28,7 +28,7 @@ pub type Values = BTreeMap<String, Record>;
 pub fn run(programs: &Programs, command: &str) -> Result<Values> {
     let folder = NewFolder::temporary()?;
     let words = shlex::split(command).unwrap_or_default();
-    // What stands before is the environment, `NAME=value`.
+    // The words before it set the environment, `NAME=value`.
     let start = words.iter().take_while(|word| word.contains('=')).count();
     let (environment, words) = words.split_at(start);
     if words.iter().map(String::as_str).take(2).eq(["cargo", "test"]) {
@@ -43,7 +43,7 @@ pub fn run(programs: &Programs, command: &str) -> Result<Values> {
     let program = run.program(programs.project).context("it runs no program")?;
     let file = folder.path().join("report.json");
     let mut arguments = run.arguments.clone();
-    // The page's command leaves a picture in the reader's folder, or prints a report. Here neither is wanted.
+    // The page's command writes a picture to the reader's folder, or prints a report. Neither is needed here.
     for (option, own) in [("--out", Some("out.png")), ("--report", None)] {
         let Some(at) = arguments.iter().position(|word| word == option) else { continue };
         arguments.drain(at..arguments.len().min(at + 2));
@@ -68,7 +68,7 @@ fn finish(command: &mut Command) -> Result<()> {
     }
 }
 
-/// The results a test has left in a folder, a file `PAGE/NAME.json` for each.
+/// The results a test has written to a folder, one file `PAGE/NAME.json` each.
 fn held(folder: &Path) -> Result<Values> {
     let mut found = BTreeMap::new();
     for page in fs::read_dir(folder)?.flatten() {
@@ -93,8 +93,8 @@ fn measured(timed: bool, (device, driver): (String, String), values: Map<String,
     Record { command, timed, device, driver, date, commit: None, values }
 }
 
-/// The values in a sample's report: of `--compare`, of `--compile-for`, else its times, its memory and the numbers
-/// of its chapter.
+/// The values in a sample's report: of `--compare`, of `--compile-for`, or else its times, its memory and the
+/// numbers of its chapter.
 fn reported(report: &Value) -> Result<Record> {
     let text = |key: &str| report[key].as_str().unwrap_or_default().to_owned();
     let device = (text("device"), text("driver"));
@@ -134,7 +134,7 @@ fn reported(report: &Value) -> Result<Record> {
             ];
             let prefix = if families.len() == 1 { String::new() } else { format!("{family}.") };
             values.extend(figures.map(|(name, value)| (format!("{prefix}{name}"), json!(value))));
-            // Of several programs each by itself, too, in the compiler's order.
+            // For several programs also each one alone, in the compiler's order.
             let programs = rows.iter().filter(|row| row["family"] == **family);
             for (number, row) in (1..).zip(programs.filter(|_| figures[0].1 != Some(1))) {
                 let own = figures[1..].iter();

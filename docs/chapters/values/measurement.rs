@@ -1,8 +1,8 @@
-//! Measurements: commands on pages that give values, and running them.
+//! Measurements: commands on pages that produce values, and running them.
 //!
-//! `<!-- measure NAME -->` stands above a shell block with the command; a name for each command, or several
-//! for one. A command that the page need not show stands in the file of its stored values. What it gives tells
-//! [`super::given`].
+//! `<!-- measure NAME -->` comes before a shell block with the command; one name per command, or several for
+//! one. A command that the page need not show is in the file of its stored values. [`super::given`] describes
+//! the results.
 
 use std::collections::BTreeMap;
 use std::time::SystemTime;
@@ -18,20 +18,20 @@ use super::record::{self, Record, Records};
 use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
 
-/// A command on a page that gives values.
+/// A command on a page that produces values.
 pub struct Measurement {
     /// The page's path.
     pub page: String,
     /// The marker's line, from 1.
     pub line: usize,
-    /// The page's name and its own: `05_shadow_miss/acne`.
+    /// The page's name and its own, such as `05_shadow_miss/acne`.
     pub name: String,
     /// The command, in one line.
     pub command: String,
 }
 
-/// Every measurement of the pages, and what is wrong with their markers. One whose command no page shows has it in
-/// the file of the stored values alone.
+/// Every measurement of the pages, and the faults of their markers. If no page shows its command, a
+/// measurement only appears in the file of the stored values.
 pub fn all(pages: &[Page], stored: &Records) -> (Vec<Measurement>, Vec<Fault>) {
     let (mut measurements, mut faults) = (BTreeMap::<String, Measurement>::new(), Vec::new());
     for page in pages {
@@ -57,7 +57,7 @@ pub fn all(pages: &[Page], stored: &Records) -> (Vec<Measurement>, Vec<Fault>) {
     (measurements.into_values().collect(), faults)
 }
 
-/// The measurements of a page, and what is wrong with its markers.
+/// The measurements of a page, and the faults of its markers.
 fn of(page: &Page) -> (Vec<Measurement>, Vec<Fault>) {
     let text = page.written();
     let (mut found, mut faults) = (Vec::new(), Vec::new());
@@ -125,8 +125,7 @@ impl Measurement {
         self.name.split('/').next().unwrap_or_default()
     }
 
-    /// The fault of its stored values, if they have one. Only running the command tells whether they would come out
-    /// again.
+    /// The fault of its stored values, if they have one. This does not run the command.
     pub fn fault(&self, stored: Option<&Record>) -> Option<Fault> {
         let name = &self.name;
         let what = match stored {
@@ -141,7 +140,7 @@ impl Measurement {
     }
 }
 
-/// Stored values of no page.
+/// The faults of stored values that belong to no page.
 pub fn strays(project: &Project) -> Vec<Fault> {
     let pages = project.pages();
     let stem = |file: &str| {
@@ -153,7 +152,7 @@ pub fn strays(project: &Project) -> Vec<Fault> {
     lost.map(|file| Fault::new(file, 1, "stray file: no page has its name", "delete it")).collect()
 }
 
-/// Runs the commands of measurements, each once, and writes what they gave.
+/// Runs the commands of measurements, each once, and writes their results.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -187,7 +186,7 @@ pub fn renew(
                 continue;
             }
         };
-        // What comes out again as it was is still of the day on which it first did.
+        // A value that has not changed keeps the date on which it was first measured.
         let same = before.get(&measurement.name).filter(|old| !new.timed && old.agrees(&new));
         let date = same.map_or(new.date.clone(), |old| old.date.clone());
         Record { date, ..new }.write(programs.project, &measurement.name)?;

@@ -1,4 +1,4 @@
-//! Measured values on pages: each is bound to a stored value where it stands, or is part of a generated table.
+//! Measured values on pages: each is bound to a stored value next to it, or is part of a generated table.
 //!
 //! ````markdown
 //! <!-- measure acne -->
@@ -13,9 +13,9 @@
 //! <!-- /table -->
 //! ````
 //!
-//! A [`measurement`] is a command on a page. What it gave ([`given`]) is stored as a [`record`]. A [`binding`] names
-//! a value behind a [`number`], and a [`table`] is written from many. All other numbers are prose.
-//! `docs/chapters/values/README.md` tells authors how.
+//! A [`measurement`] is a command on a page. Its result ([`given`]) is stored as a [`record`]. A [`binding`]
+//! names the value of a [`number`], and a [`table`] is generated from many. All other numbers are prose. See
+//! `docs/chapters/values/README.md`.
 
 pub mod binding;
 pub mod budget;
@@ -33,12 +33,12 @@ use manuscript::project::Project;
 
 use record::Record;
 
-/// Bound numbers that are not as stored, and measurements that are missing or were made by another command.
+/// Bound numbers that differ from the stored values, and measurements that are missing or have a new command.
 pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let (stored, mut faults) = Record::all(project);
     let (measurements, wrong) = measurement::all(pages, &stored);
     faults.extend(wrong);
-    // A file that is damaged has been reported as that, and nothing on its page can be compared.
+    // A damaged file has already been reported, and nothing on its page can be compared.
     let damaged: Vec<String> = faults.iter().map(|fault| fault.file.clone()).collect();
     let is_readable = |stem: &str| !damaged.contains(&record::file(stem));
     let readable = measurements.iter().filter(|m| is_readable(m.page_name()));

@@ -1,16 +1,16 @@
-//! Numbers in a page's text: how they are written, and a value written in the same way.
+//! Parses the numbers in a page's text, and formats values in the same way.
 
 use std::ops::Range;
 use std::sync::LazyLock;
 
 use regex_lite::Regex;
 
-/// The readings of a text, the first that fits: the groups named in [`found`] are numbers, the rest is not.
+/// The readings of a text; the first that matches wins. Only the groups named in [`found`] are numbers.
 static TEXT: LazyLock<Regex> = LazyLock::new(|| {
     let parts = [
         // A date.
         r"\d{4}-\d\d-\d\d",
-        // What is numbered, not counted.
+        // An ordinal, not a quantity.
         r"(?i:chapters?|exercises?|sections?|parts?|row|column|location|binding|set) \d+(?:(?:, | and | to )\d{1,2}\b)*",
         // A version.
         r"(?:Vulkan|SPIR-V|LLVM|Mesa|Debian|Ubuntu|Rust|RDNA) \d+(?:\.\d+)*",
@@ -34,17 +34,17 @@ static TEXT: LazyLock<Regex> = LazyLock::new(|| {
 pub struct Number {
     /// Its range, in bytes.
     pub span: Range<usize>,
-    /// As it is written.
+    /// Its text.
     pub written: String,
-    /// True if a minus stands before it.
+    /// True if it has a minus sign.
     negative: bool,
-    /// The unit of its value: hundredths before a percent sign, millions before that word and MB.
+    /// The unit of its value: hundredths for a percent sign, millions for that word and for MB.
     scale: Scale,
-    /// True if it is approximate: then zeros at its end are no digits.
+    /// True if it is approximate; then its trailing zeros are not significant.
     about: bool,
 }
 
-/// The unit behind a number, which belongs to its value.
+/// The unit after a number, which is part of its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scale {
     One,
@@ -52,7 +52,7 @@ enum Scale {
     Million,
 }
 
-/// Every number in a part of a text that is not the name or the number of something.
+/// Every number in a part of a text that is not part of a name and not an ordinal.
 pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
     let captures = TEXT.captures_iter(&text[part.clone()]);
     let groups =
@@ -60,13 +60,13 @@ pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
     let number = |found: regex_lite::Match| {
         let span = part.start + found.start()..part.start + found.end();
         let (before, after) = (&text[..span.start], &text[span.end..]);
-        // The comment that binds it belongs to the number, not to what follows.
+        // The comment that binds it belongs to the number, not to the text after it.
         let comment = after.strip_prefix("<!--").and_then(|rest| Some(rest.split_once("-->")?.1));
         let after = comment.unwrap_or(after).trim_start_matches(' ');
         let word =
             after.split([' ', ',', '.', ';', ':', ')', '|', '\n']).next().unwrap_or_default();
         let written = found.as_str().to_owned();
-        // Not that of a range: 5-7.
+        // The hyphen of a range is not a minus sign: 5-7.
         let minus = before.strip_suffix(['-', '−']);
         let negative = minus.is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()));
         let scale = match word {
@@ -85,7 +85,7 @@ impl Number {
         self.written.len() == 4 && ["19", "20"].contains(&&self.written[..2])
     }
 
-    /// A value as this number is written: rounded to its digits, with its separators and its exponent.
+    /// Formats a value like this number: rounded to its digits, with its separators and its exponent.
     pub fn like(&self, value: f64) -> String {
         let value = if self.negative { -value } else { value };
         let value = match self.scale {
@@ -108,7 +108,7 @@ impl Number {
         self.separated(&format!("{value:.places$}"))
     }
 
-    /// Digits in groups of three, unless this number has four or more without.
+    /// Groups digits by three, unless this number has four or more digits without separators.
     fn separated(&self, text: &str) -> String {
         let (whole, rest) = text.split_at(text.find('.').unwrap_or(text.len()));
         let own = self.written.split('.').next().unwrap_or_default();

@@ -1,19 +1,19 @@
-//! Passages: a page's paragraphs, tables, quotations and items, and where their text stands.
+//! Passages: a page's paragraphs, tables, quotations and list items, and the places of their text.
 
 use std::ops::Range;
 
 use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 
-/// The sections that are not read: exercises have tests of their own, sources have pages.
+/// The sections that are skipped: exercises have tests of their own, and sources have page numbers.
 const LEFT_OUT: [&str; 2] = ["Try it", "Sources"];
 
 /// A paragraph, table, quotation or item of a list.
 #[derive(Debug, Default)]
 pub struct Passage {
-    /// True for a table or a quotation, false for sentences of the page's own.
+    /// True for a table or a quotation, false for the page's own sentences.
     pub is_set_apart: bool,
-    /// The places of its text on the page, in bytes: without code, formulas, links and the heads of rows
-    /// and columns.
+    /// The places of its text on the page, in bytes, without code, formulas, links and the heads of rows and
+    /// columns.
     pub text: Vec<Range<usize>>,
 }
 
@@ -46,7 +46,7 @@ pub fn all(text: &str) -> Vec<Passage> {
             Event::End(TagEnd::Link | TagEnd::Image | TagEnd::CodeBlock | TagEnd::TableHead) => {
                 hidden -= 1
             }
-            // A row's first cell says what the row is about.
+            // A row's first cell is its label.
             Event::Start(Tag::TableRow) => label = true,
             Event::End(TagEnd::TableCell) => label = false,
             Event::Start(Tag::Table(_) | Tag::BlockQuote(_)) => {

@@ -1,5 +1,5 @@
-//! The stored values of a page, `docs/values/PAGE.json`: of each measurement its command, device, driver and day, and
-//! the numbers that it gave.
+//! The stored values of a page, `docs/values/PAGE.json`: for each measurement its command, device, driver and
+//! date, and the resulting numbers.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -31,16 +31,16 @@ pub struct Record {
     /// The device's name, or [`HOST`].
     #[serde(default)]
     pub device: String,
-    /// The driver, in its maker's words.
+    /// The driver, as its maker names it.
     #[serde(default)]
     pub driver: String,
     /// The day, as `2026-11-22`; empty before the first measurement.
     #[serde(default)]
     pub date: String,
-    /// The last commit that had this command, if it can no longer be run; the values then stay as they are.
+    /// The last commit with this command, if it can no longer be run; the values then stay unchanged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The numbers, by name, in the order in which the command gave them.
+    /// The numbers, by name, in the order of the command's output.
     #[serde(default)]
     pub values: Map<String, Value>,
 }
@@ -78,7 +78,8 @@ impl Record {
         (found, faults)
     }
 
-    /// The measurements in a page's file, by name; else the line of the first mistake, and what it is.
+    /// The measurements in a page's file, by name; otherwise the line of the first mistake, and its
+    /// description.
     fn of_page(text: &str) -> Result<BTreeMap<String, Self>, (usize, String)> {
         let stored: BTreeMap<String, Self> = serde_json::from_str(text).map_err(|error| {
             let what = error.to_string();
@@ -97,17 +98,17 @@ impl Record {
         self.values.get(name)?.as_f64()
     }
 
-    /// True if both are of one device and driver.
+    /// True if both have the same device and driver.
     pub fn is_of_device_of(&self, other: &Self) -> bool {
         (&self.device, &self.driver) == (&other.device, &other.driver)
     }
 
-    /// True if two runs of one command gave the same on the same device.
+    /// True if two runs of one command gave the same values on the same device.
     pub fn agrees(&self, other: &Self) -> bool {
         self.values == other.values && self.command == other.command && self.is_of_device_of(other)
     }
 
-    /// Stores it in its page's file, beside the others; a file that stays the same is not touched.
+    /// Stores it in its page's file, next to the others; an unchanged file is not written.
     ///
     /// # Errors
     /// If the file cannot be read or written.

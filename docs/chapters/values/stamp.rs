@@ -1,4 +1,4 @@
-//! The stamp of a page: which devices gave its values, and when. One line for all of them.
+//! The stamp of a page: the devices that produced its values and the dates, in one line.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use manuscript::project::Project;
 use super::binding;
 use super::record::{self, Record};
 
-/// The device of what a GPU's compiler says without the GPU.
+/// The device of values from a GPU's compiler that runs without the GPU.
 const COMPILER: &str = "RADV";
 
 /// Returns whether a page has a stamp.
@@ -55,7 +55,7 @@ fn line<'a>(records: impl Iterator<Item = &'a Record>) -> String {
     days.into_iter().map(of).collect::<Vec<_>>().join(" ")
 }
 
-/// A driver's version: of `llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)` this is Mesa 25.0.7.
+/// A driver's version: Mesa 25.0.7 for `llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)`.
 fn version(driver: &str) -> String {
     match driver.split_once("Mesa ") {
         Some((_, rest)) => {

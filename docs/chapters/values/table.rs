@@ -10,10 +10,10 @@
 //! | opaque again (noise) | | {modes.noise.ratio:0.00} |
 //! ```
 //!
-//! `{MEASUREMENT.VALUE:0.00}` is a stored value, written like the number behind the colon; without one, with as many
-//! digits as a reader needs; `{1/MEASUREMENT.VALUE}` is its inverse. A row whose head is `{A; B}` stands for one row
-//! each: `*` is the head, with hyphens for blanks, and a value that is not stored leaves its cell empty. `{*}` stands
-//! for all stored names.
+//! `{MEASUREMENT.VALUE:0.00}` is a stored value, formatted like the number after the colon; without one, with
+//! as many digits as a reader needs; `{1/MEASUREMENT.VALUE}` is its inverse. A row whose head is `{A; B}`
+//! stands for one row each: `*` is the head, with hyphens for blanks, and a value that is not stored leaves
+//! its cell empty. `{*}` stands for all stored names.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -27,7 +27,7 @@ use super::binding::{value, whole_name};
 use super::number;
 use super::record::{FOLDER, Records};
 
-/// A value in a template: measurement, value, and a number that shows its format.
+/// A value in a template: measurement, value, and a number in the wanted format.
 static VALUE: LazyLock<Regex> = LazyLock::new(|| {
     let pattern = r"\{(?:1/)?([\w-]+(?:/[\w-]+)?)\.([^{}|]+?)(?::([\d.,e-]+))?\}";
     Regex::new(pattern).expect("the pattern is right")
@@ -65,7 +65,7 @@ pub fn template(project: &Project, page: &Page, name: &str) -> Option<String> {
 /// The table of this name, for a marker on this line of a page.
 ///
 /// # Errors
-/// If there is no such template, or it names a value that is not stored.
+/// If there is no such template, or it contains a value that is not stored.
 pub fn body(
     project: &Project,
     page: &Page,
@@ -112,7 +112,7 @@ pub fn body(
     Ok(text)
 }
 
-/// The names that `*` may stand for in a row: those in its first value with one, in the order stored.
+/// The possible values of `*` in a row: the names that match its first value with one, in the order stored.
 fn names(page: &Page, row: &str, stored: &Records) -> Vec<String> {
     let first = VALUE.captures_iter(row).find(|value| value[2].contains('*'));
     let Some(first) = first else { return Vec::new() };
@@ -126,7 +126,7 @@ fn names(page: &Page, row: &str, stored: &Records) -> Vec<String> {
     keys.filter_map(name).collect()
 }
 
-/// A format for a value: a reader needs no more digits.
+/// The format of a value, with no more digits than a reader needs.
 fn format(value: f64) -> &'static str {
     match value.abs() {
         size if size == 0.0 || size.fract() == 0.0 || size >= 100.0 => "0",
@@ -136,7 +136,7 @@ fn format(value: f64) -> &'static str {
     }
 }
 
-/// A row with its values; if `may_lack`, one that is not stored is left empty.
+/// A row with its values; if `may_lack`, a value that is not stored leaves its cell empty.
 fn written(
     page: &Page,
     row: &str,
@@ -170,7 +170,7 @@ fn written(
     Ok(row.replace("|  |", "| |").replace("|  |", "| |"))
 }
 
-/// The measurements whose values a page's tables show, with their pages.
+/// The measurements used in a page's tables, with their pages.
 pub fn measurements(project: &Project, page: &Page) -> BTreeSet<String> {
     let shown = |name: &String| page.blocks.iter().any(|b| is_table(b) && b.words.contains(name));
     let templates = templates(project, page).into_iter().filter(|(_, name, _)| shown(name));
@@ -180,7 +180,7 @@ pub fn measurements(project: &Project, page: &Page) -> BTreeSet<String> {
     templates.flat_map(names).collect()
 }
 
-/// Templates that no page shows: a chapter's page and that of its measurements share a file.
+/// The templates that no page shows. A chapter's page and its page of measurements share a file.
 pub fn strays(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let stray = |page: &Page| {
         let own = pages.iter().filter(|other| other.stem() == page.stem());

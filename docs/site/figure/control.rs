@@ -1,4 +1,4 @@
-//! A figure's controls, as its mark names them.
+//! A figure's controls, parsed from its mark.
 //!
 //! | in the mark | what it is |
 //! |---|---|
@@ -10,13 +10,13 @@
 
 use crate::color::escaped;
 
-/// Steps of a logarithmic slider to ten times as much.
+/// Steps of a logarithmic slider per factor of ten.
 const STEPS: f64 = 20.0;
 
 /// The controls of a mark as HTML in one line.
 ///
 /// # Errors
-/// What is wrong with them.
+/// The fault of the mark.
 pub fn html(mark: &str) -> Result<String, String> {
     let controls = mark.split(';').map(str::trim).filter(|control| !control.is_empty());
     controls.map(one).collect()

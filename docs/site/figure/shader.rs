@@ -1,4 +1,4 @@
-//! Shaders of the chapters as WebGL 2 takes them: in GLSL ES 3.00.
+//! Translates shaders of the chapters to GLSL ES 3.00, for WebGL 2.
 //!
 //! A figure's shader includes files of `shaders/`, whole or cut at an anchor:
 //! `#include "common/sphere.glsl#sphere_stable"`. What that language says otherwise stands in [`HEAD`], [`LACKS`]
@@ -10,9 +10,9 @@ use manuscript::fault::Fault;
 
 use super::source::{Source, Token, end};
 
-/// What stands above each shader. The language has no `precise` and no `fma`. `keep` stands for the first:
-/// a compiler that does not know that `kept` is 0 can move no operation across it. The shaders use `fma`
-/// only where FUSED is not 0, and it is 0 here.
+/// The text before each shader. GLSL ES has no `precise` and no `fma`. `keep` replaces `precise`: a compiler
+/// that does not know that `kept` is 0 cannot move an operation across it. The shaders use `fma` only if
+/// FUSED is not 0, and it is 0 here.
 const HEAD: &str = "\
 #version 300 es
 precision highp float;
@@ -25,10 +25,10 @@ vec3 keep(vec3 a) { return uintBitsToFloat(floatBitsToUint(a) ^ kept); }
 vec4 keep(vec4 a) { return uintBitsToFloat(floatBitsToUint(a) ^ kept); }
 ";
 
-/// The types that have a `keep`.
+/// The types supported by `keep`.
 const KEPT: [&str; 4] = ["float", "vec2", "vec3", "vec4"];
 
-/// Words for which the language has nothing, and what they are.
+/// Words without an equivalent in GLSL ES, and their meaning.
 const LACKS: [(&str, &str); 21] = [
     ("bitCount", "a function of later versions"),
     ("bitfieldExtract", "a function of later versions"),
@@ -53,15 +53,16 @@ const LACKS: [(&str, &str); 21] = [
     ("push_constant", "push constants"),
 ];
 
-/// Operators beside which a whole number has the type of the other side.
+/// Operators that give a whole number the type of their other operand.
 const OPERATORS: [&str; 18] = [
     "=", "==", "!=", "<", ">", "<=", ">=", "+", "-", "*", "/", "%", "&", "|", "^", "+=", "-=", "*=",
 ];
 
-/// The shader `file` with all that it includes. `read` tells what a file holds, from the project's root.
+/// The shader `file` with everything it includes. `read` returns the contents of a file, given from the
+/// project's root.
 ///
 /// # Errors
-/// What has no equivalent, each with its file and line.
+/// The parts without an equivalent, each with its file and line.
 pub fn translated(read: &dyn Fn(&str) -> Option<String>, file: &str) -> Result<String, Vec<Fault>> {
     let mut translator = Translator { source: Source::of(read, file), made: HEAD.to_owned() };
     let tokens = translator.keep();
@@ -79,15 +80,15 @@ struct Translator {
 }
 
 impl Translator {
-    /// Checks all words, and puts `keep` in the place of `precise`.
+    /// Checks all words, and replaces `precise` by `keep`.
     fn keep(&mut self) -> Vec<Token> {
         let tokens = std::mem::take(&mut self.source.tokens);
         let mut made = Vec::new();
         let text = |at: usize| tokens.get(at).map_or("", |token: &Token| &*token.text);
-        // Variables that are kept, each with the depth of braces in which it lives.
+        // The variables to keep, each with the depth of braces of its scope.
         let mut kept: BTreeMap<&str, usize> = BTreeMap::new();
         let (mut depth, mut at) = (0, 0);
-        // Where a kept statement ends, and the brackets that are open there.
+        // The end of a kept statement, and the brackets open there.
         let mut closes = (0, "");
         while at < tokens.len() {
             let (word, line) = (text(at), tokens[at].line);
@@ -145,15 +146,15 @@ impl Translator {
         made
     }
 
-    /// Writes the tokens, with `u` behind whole numbers that must be unsigned.
+    /// Writes the tokens, with `u` after whole numbers that must be unsigned.
     fn write(&mut self, tokens: &[Token]) {
         let text = |at: Option<usize>| {
             at.and_then(|at| tokens.get(at)).map_or("", |token: &Token| &*token.text)
         };
         let mut unsigned: BTreeSet<&str> = BTreeSet::new();
-        // Whether an unsigned variable is being declared: what it is chosen from is unsigned, too.
+        // True while an unsigned variable is being declared; the values it is chosen from are also unsigned.
         let mut declares = false;
-        // Where the last unsigned number stands: in `i % 8 == 7` the 8 makes the 7 unsigned.
+        // The place of the last unsigned number: in `i % 8 == 7` the 8 makes the 7 unsigned.
         let mut number = None;
         for (at, Token { text: word, .. }) in tokens.iter().enumerate() {
             let [last, next] = [at.checked_sub(1), Some(at + 1)].map(text);

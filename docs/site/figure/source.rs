@@ -1,4 +1,4 @@
-//! A shader as words and signs: with all that it includes, without comments, its directives followed.
+//! A shader as tokens: with all included files, without comments, its directives evaluated.
 
 use std::collections::BTreeSet;
 
@@ -6,45 +6,45 @@ use manuscript::anchor::parts;
 use manuscript::fault::Fault;
 use manuscript::shader::spliced;
 
-/// Signs of several characters; longer ones come first.
+/// Operators of several characters, longer ones first.
 const SIGNS: [&str; 20] = [
     "<<=", ">>=", "==", "!=", "<=", ">=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<",
     ">>", "++", "--", "&&", "||",
 ];
 
-/// A word, a number or a sign, and the line where it stands.
+/// A word, a number or an operator, and its line.
 #[derive(Clone, Debug)]
 pub struct Token {
-    /// As it stands in the text.
+    /// Its text.
     pub text: String,
     /// The position of its line in the spliced text.
     pub line: usize,
 }
 
-/// A shader, taken apart.
+/// A tokenized shader.
 #[derive(Default)]
 pub struct Source {
-    /// Where each line of the spliced text comes from.
+    /// The origin of each line of the spliced text.
     places: Vec<(String, usize)>,
-    /// Its words and signs; a definition is one of them.
+    /// Its tokens; a definition is one token.
     pub tokens: Vec<Token>,
-    /// What is wrong with it.
+    /// Its faults.
     pub faults: Vec<Fault>,
 }
 
 impl Source {
-    /// Reads `file` and what it includes, from the project's root.
+    /// Reads `file` and the files it includes, from the project's root.
     pub fn of(read: &dyn Fn(&str) -> Option<String>, file: &str) -> Self {
         let mut source = Self::default();
         source.lines(file, &spliced(&|path| cut(read, path), file));
         source
     }
 
-    /// Takes the text apart: directives are followed, comments left out.
+    /// Tokenizes the text: evaluates directives, and skips comments.
     fn lines(&mut self, file: &str, text: &str) {
         let (mut file, mut number) = (file.to_owned(), 0);
         let mut defined = BTreeSet::new();
-        // Of each open condition, whether its lines count.
+        // For each open condition, true if its lines count.
         let mut conditions: Vec<bool> = Vec::new();
         for (line, text) in text.lines().enumerate() {
             number += 1;
@@ -86,20 +86,20 @@ impl Source {
         }
     }
 
-    /// Names a fault in a line.
+    /// Adds a fault in a line.
     pub fn fault(&mut self, line: usize, what: impl Into<String>, remedy: &str) {
         let (file, number) = self.places[line].clone();
         self.faults.push(Fault::new(file, number, what, remedy));
     }
 
-    /// Names what WebGL 2 does not have.
+    /// Adds a fault for something WebGL 2 lacks.
     pub fn unfit(&mut self, line: usize, what: &str) {
         let what = format!("a figure includes this, and WebGL 2 has no equivalent of {what}");
         self.fault(line, what, "cut the figure's shader at another anchor");
     }
 }
 
-/// A file, or what stands at its anchor, each line in its own place.
+/// A file, or the part at its anchor, with line numbers preserved.
 fn cut(read: &dyn Fn(&str) -> Option<String>, path: &str) -> Option<String> {
     let Some((file, name)) = path.split_once('#') else { return read(path) };
     let text = read(file)?;
@@ -108,7 +108,7 @@ fn cut(read: &dyn Fn(&str) -> Option<String>, path: &str) -> Option<String> {
     Some(text.lines().enumerate().map(kept).collect::<Vec<_>>().join("\n"))
 }
 
-/// Where the statement ends that begins here; `None` if it declares several variables.
+/// The end of the statement that begins here; `None` if it declares several variables.
 pub fn end(tokens: &[Token]) -> Option<usize> {
     let mut depth = 0;
     for (at, token) in tokens.iter().enumerate() {
@@ -123,7 +123,7 @@ pub fn end(tokens: &[Token]) -> Option<usize> {
     None
 }
 
-/// The words, numbers and signs of a line.
+/// The tokens of a line.
 fn tokens(text: &str, line: usize) -> Vec<Token> {
     let mut found = Vec::new();
     let mut rest = text.trim_start();

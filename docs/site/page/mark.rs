@@ -1,4 +1,4 @@
-//! Marks: comments that tell the site something, and that a code host does not show.
+//! Marks: comments for the site, which a code host does not show.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use crate::color::escaped;
 use crate::link;
 use crate::page::Composer;
 
-/// What the mark above a picture makes of it, and what the mark says.
+/// The kind of a mark above a picture, and its content.
 pub(super) enum Above {
     Slider(String),
     Figure(String),
@@ -23,7 +23,7 @@ impl Above {
 }
 
 impl Composer<'_> {
-    /// A comment is a mark or nothing to a reader; other HTML stays.
+    /// A comment is a mark or is dropped; other HTML is unchanged.
     pub(super) fn html(&mut self, index: usize, span: Range<usize>) {
         let comment = self.text[span.clone()].trim();
         let Some(words) = comment.strip_prefix("<!--").and_then(|rest| rest.strip_suffix("-->"))
@@ -46,13 +46,13 @@ impl Composer<'_> {
             }
             _ => String::new(),
         };
-        // With its line: a blank one instead would make a list loose.
+        // The whole line is removed: a blank line would make a list loose.
         let start = self.text[..span.start].rfind('\n').map_or(0, |at| at + 1);
         let end = if shown.is_empty() { String::new() } else { format!("{shown}\n") };
         self.edits.push((start..span.end, end));
     }
 
-    /// The line above a piece of code: its file, which leads to the whole.
+    /// The line above a piece of code: its file, linked to the whole listing.
     fn caption(&mut self, index: usize, source: &str) -> String {
         let (file, anchor) =
             source.split_once('#').map_or((source, None), |(file, anchor)| (file, Some(anchor)));
@@ -68,7 +68,7 @@ impl Composer<'_> {
         format!("<div class=\"source\"><a href=\"{address}\">{}</a></div>", escaped(file))
     }
 
-    /// The line above a diff: the two chapters, and where the whole is.
+    /// The line above a diff: the two chapters, linked to the whole listing.
     fn change(&mut self, index: usize, words: &str) -> String {
         let words: Vec<&str> = words.split_whitespace().collect();
         let [old, new, source] = words[..] else { return String::new() };

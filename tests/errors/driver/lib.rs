@@ -1,17 +1,17 @@
-//! A Vulkan driver for tests: its one device offers Vulkan 1.3 and no extension at all.
+//! A Vulkan driver for tests: its single device supports Vulkan 1.3 and no extensions.
 //!
-//! With `DRIVER_WITHOUT_DEVICE` in the environment it offers no device, as an installed driver does in
-//! a machine without its hardware. It holds what the loader wants of a driver before anything is made:
+//! With `DRIVER_WITHOUT_DEVICE` in the environment it has no device, like an installed driver on a machine
+//! without its hardware. It implements what the loader requires of a driver before any object is created:
 //! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderDriverInterface.md>.
 
 use std::ffi::{CStr, c_char, c_void};
 
 use ash::vk;
 
-/// The value that the loader finds at the start of an instance or a device, and replaces by its own.
+/// The value the loader expects at the start of an instance or a device, and replaces with its own.
 const LOADER_MAGIC: usize = 0x01CD_C0DE;
 
-/// Settles on version 5 of the loader's interface, the first for Vulkan 1.1 and later.
+/// Negotiates version 5 of the loader's interface, the first for Vulkan 1.1 and later.
 ///
 /// # Safety
 /// `version` can be written.
@@ -59,7 +59,7 @@ pub unsafe extern "system" fn vk_icdGetInstanceProcAddr(
     unsafe { std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(address) }
 }
 
-/// Leaves whatever it should fill as it is; what it returns is success, or a null function.
+/// Writes nothing; returns success, or a null function.
 extern "system" fn nothing() -> usize {
     0
 }
@@ -79,7 +79,7 @@ unsafe extern "system" fn create_instance(
     _: *const c_void,
     instance: *mut *mut usize,
 ) -> vk::Result {
-    // SAFETY: the caller's promise. The process of a test is short, and so is what leaks.
+    // SAFETY: the caller's promise. The leaked memory is small, and the test process is short.
     unsafe { *instance = Box::into_raw(Box::new(LOADER_MAGIC)) };
     vk::Result::SUCCESS
 }
@@ -125,7 +125,7 @@ unsafe extern "system" fn properties2(
     device: vk::PhysicalDevice,
     properties2: *mut vk::PhysicalDeviceProperties2,
 ) {
-    // SAFETY: the caller's promise; a structure's type says what it is.
+    // SAFETY: the caller's promise; the type of a structure is in its first field.
     unsafe {
         properties(device, &raw mut (*properties2).properties);
         let mut next = (*properties2).p_next.cast::<vk::BaseOutStructure>();

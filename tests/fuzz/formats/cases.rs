@@ -1,4 +1,4 @@
-//! Files of hard cases, which 24 reads, once it has a device: there is no function to ask.
+//! Files of hard cases. 24 reads them once it has a device, so there is no function to call.
 
 use std::sync::LazyLock;
 
@@ -20,7 +20,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// A ball in front of the eye: with more primitives, a device makes pipelines for minutes.
+/// A ball in front of the eye: with more primitives, a device would compile pipelines for minutes.
 const SPHERE: &str = r#"{"schema": "rt-hard-cases/2", "cases": [{"id": "a", "primitive": "sphere", "family": "f",
 "ray": {"origin": [0, 0, 5], "dir": [0, 0, -1], "tmin": 0, "tmax": 100}, "shape": {"center": [0, 0, 0], "radius": 1},
 "expect": {"hit": "yes", "t": "4.0", "normal": ["0", "0", "1"]}, "tol": {"t_ulp": 1}}]}"#;

@@ -1,4 +1,4 @@
-//! The moves of a game, of which `chess_game` makes legs.
+//! The moves of a game, which `chess_game` turns into legs.
 
 use std::sync::LazyLock;
 
@@ -45,7 +45,7 @@ pub const FUNCTION: Function = Function {
     memory: 16 << 20,
 };
 
-/// By the grammar, or by the rules: at random, as far as it goes.
+/// Generates a text by the grammar, or random moves by the rules for as long as possible.
 fn make(random: &mut Random) -> Vec<u8> {
     if random.below(4) > 0 {
         return GRAMMAR.text(random, 2000).into_bytes();

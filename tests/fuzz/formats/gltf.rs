@@ -10,7 +10,7 @@ use crate::grammar::Grammar;
 static GRAMMAR: LazyLock<Grammar> =
     LazyLock::new(|| Grammar::new(include_str!("../grammars/gltf.txt")));
 
-/// A model of four corners, a skin, a target, a texture with holes, two lights and a camera.
+/// A model with four vertices, a skin, a target, a texture with holes, two lights and a camera.
 const MODEL: &str = r#"{"asset":{"version":"2.0"},
 "scene":0,"scenes":[{"nodes":[0,1,2,3]}],
 "nodes":[{"mesh":0,"children":[4]},{"camera":0,"translation":[0,0,3]},
@@ -56,7 +56,7 @@ pub const FUNCTION: Function = Function {
     memory: 64 << 20,
 };
 
-/// Four corners, the indices of two triangles, joints, and zeros.
+/// Four vertices, the indices of two triangles, joints, and zeros.
 fn buffer() -> Vec<u8> {
     let corners = [[0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let mut bytes: Vec<u8> = corners.iter().flatten().flat_map(|c| c.to_le_bytes()).collect();

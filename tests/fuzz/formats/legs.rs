@@ -1,4 +1,4 @@
-//! The legs of pieces, which 14 plays.
+//! The legs of pieces, as played by 14.
 
 use std::sync::LazyLock;
 

@@ -1,4 +1,4 @@
-//! OBJ files, and the MTL files that they name.
+//! OBJ files, and the MTL files they refer to.
 
 use std::fs;
 use std::path::Path;
@@ -73,7 +73,7 @@ pub const MATERIAL_FUNCTION: Function = Function {
     memory: 64 << 20,
 };
 
-/// Opens a model, holds that it is whole, and says what it has.
+/// Opens a model, checks that it is consistent, and summarises it.
 pub fn read(path: &Path) -> Result<String> {
     let scene = Scene::open(path)?;
     whole(&scene.model);
@@ -84,7 +84,7 @@ pub fn read(path: &Path) -> Result<String> {
     Ok(format!("{counts:?} {}", warnings.join(" ")))
 }
 
-/// Holds that every index is one of something, and that every number is one.
+/// Checks that every index refers to something, and that every number is finite.
 pub fn whole(model: &Model) {
     for mesh in &model.meshes {
         assert!(!mesh.triangles.is_empty(), "a mesh without triangles");
@@ -112,9 +112,9 @@ pub fn whole(model: &Model) {
     }
 }
 
-/// The magnitude of a count, so that two models that differ little are told as one.
+/// The magnitude of a count, so that models of similar size have equal summaries.
 fn magnitude(count: usize) -> char {
-    // Letters: numbers are left out of what is compared.
+    // A letter, because numbers are ignored in comparisons.
     let log = count.checked_ilog2().map_or(0, |log| log + 1);
     (b'a' + log as u8) as char
 }

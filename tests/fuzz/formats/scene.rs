@@ -32,7 +32,7 @@ pub const FORMAT: Format = Format {
 /// The reader of the format.
 pub const FUNCTION: Function = Function { beside, read, memory: 128 << 20 };
 
-/// The model that scenes name.
+/// Writes the model that scenes refer to.
 pub fn beside(folder: &Path) {
     fs::write(folder.join("m.obj"), object::MODEL).expect("a file can be written");
 }
@@ -43,7 +43,7 @@ fn read(path: &Path) -> Result<String> {
     Ok(format!("{:?}", needed(&findings(&composition))))
 }
 
-/// Holds that every index is one of something, and that nothing lies where no ray can go.
+/// Checks that every index refers to something, and that nothing is out of reach of rays.
 fn whole(composition: &Composition) {
     let Composition { scene, lights, spheres, boxes, solids, faces, solid_bounds, .. } =
         composition;
@@ -57,7 +57,7 @@ fn whole(composition: &Composition) {
     for instance in &scene.instances {
         assert!(instance.mesh < scene.model.meshes.len(), "there is no mesh {}", instance.mesh);
         let (low, high) = scene.instance_bounds(instance);
-        // As far as `--scene` lets a model reach: beyond, products of coordinates overflow.
+        // The limit of `--scene` for the size of a model: beyond it, products of coordinates overflow.
         let reach = low.abs().max(high.abs()).max_element();
         assert!(reach <= 1e25, "an instance reaches {reach:e} from the origin");
     }

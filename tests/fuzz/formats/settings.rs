@@ -1,4 +1,4 @@
-//! Settings of controls, and the other small languages of the command line.
+//! Settings of controls, and the other syntaxes of the command line.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -18,7 +18,7 @@ use crate::grammar::Grammar;
 static GRAMMAR: LazyLock<Grammar> =
     LazyLock::new(|| Grammar::new(include_str!("../grammars/settings.txt")));
 
-/// Lines, each what follows a `--set`.
+/// Lines, each the argument of a `--set`.
 pub const FORMAT: Format = Format {
     name: "settings",
     file: "settings.txt",
@@ -50,7 +50,7 @@ const WORDS: [&str; 3] = ["picture", "normal", "depth"];
 impl All {
     fn controls(&mut self, c: &mut Controls) {
         if c.checkbox("on", &mut self.on) {
-            // A preset: it brings another control's value, which stands after it.
+            // A preset also sets another control, which comes after it.
             self.height = 0.5;
         }
         c.slider("height", &mut self.height, -1.0..=1.0);
@@ -65,7 +65,7 @@ impl All {
         c.sun(&mut self.sun);
     }
 
-    /// Holds that every value is one that the control takes.
+    /// Checks that every value is accepted by its control.
     fn check(&self) {
         assert!((-1.0..=1.0).contains(&self.height) && (1..=9).contains(&self.count));
         assert!(self.tint.min_element() >= 0.0 && self.tint.max_element() <= 1.0);
@@ -114,7 +114,7 @@ fn read(path: &Path) -> Result<String> {
     let set = set_all(&sets, |c| all.controls(c));
     set.map_err(|refused| anyhow!("{}: {refused}", path.display()))?;
     all.check();
-    // What is listed can be set again, and is then the same.
+    // The listed values can be set again, and the list is then the same.
     let listed = list(|c| all.controls(c));
     let again: Vec<_> = listed.iter().map(|one| (one.name.clone(), one.value.clone())).collect();
     set_all(&again, |c| all.controls(c)).expect("what is listed can be set");

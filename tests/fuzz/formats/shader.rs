@@ -1,4 +1,4 @@
-//! The text of a shader, with what it includes.
+//! The text of a shader, with included files.
 
 use std::fs;
 use std::path::Path;
@@ -25,7 +25,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// More terms than glslang's stack bears: it goes down into a sum term by term.
+/// More terms than glslang's stack can take: it recurses into a sum term by term.
 fn long_sum() -> Vec<u8> {
     let sum = " + x".repeat(60_000);
     format!("#version 460\nfloat much(float x) {{ return x{sum}; }}\nvoid main() {{ }}\n").into()

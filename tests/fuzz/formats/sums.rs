@@ -1,4 +1,4 @@
-//! Files of sums, which `--save` writes, `--resume` goes on from and `cargo chapters merge` adds up.
+//! Files of sums, written by `--save`, continued by `--resume` and added by `cargo chapters merge`.
 
 use std::fs;
 use std::io::Write;
@@ -32,7 +32,7 @@ pub const FUNCTION: Function = Function {
     memory: 64 << 20,
 };
 
-/// A file as a render of two pixels leaves it, with the samples from `first` on.
+/// A file as written by a render of two pixels, with the samples from `first` on.
 pub fn right(first: u32) -> Vec<u8> {
     let origin = Origin {
         chapter: "04_jitter_camera".to_owned(),
@@ -58,7 +58,8 @@ fn read(path: &Path) -> Result<String> {
     Ok(format!("{warned} {merged}"))
 }
 
-/// A file with a header of a grammar's making, so many sums as it promises, mostly, and the right checksum.
+/// Generates a file with a header by the grammar, usually as many sums as it promises, and the right
+/// checksum.
 fn make(random: &mut Random) -> Vec<u8> {
     let whole = |random: &mut Random| match random.below(6) {
         0 => ODD_NUMBERS[random.below(ODD_NUMBERS.len())].to_owned(),
@@ -94,7 +95,7 @@ fn make(random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// Puts the header's length and the checksum right.
+/// Repairs the header's length and the checksum.
 fn seal(bytes: &mut [u8]) {
     let end = bytes.windows(3).position(|three| three == b"}}\x78").map(|at| at + 2);
     if let (Some(end), true) = (end, bytes.len() > 12) {

@@ -1,4 +1,4 @@
-//! PNG and JPEG files, and what is none.
+//! PNG and JPEG files, and invalid ones.
 
 use std::fs;
 use std::io::Write;
@@ -12,7 +12,7 @@ use crate::format::{Format, Function};
 
 const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 
-/// A picture that a material names.
+/// A picture that a material refers to.
 pub const FORMAT: Format = Format {
     name: "texture",
     file: "t.png",
@@ -38,7 +38,7 @@ pub const FUNCTION: Function = Function {
 const JPEG: &[u8] =
     b"\xff\xd8\xff\xe0\x00\x10JFIF\x00\x01\x01\x00\x00\x01\x00\x01\x00\x00\xff\xdb\x00\x43\x00";
 
-/// A picture of four texels, whole and right.
+/// A valid picture of four texels.
 pub fn small() -> Vec<u8> {
     let mut bytes = SIGNATURE.to_vec();
     chunk(&mut bytes, b"IHDR", &header(2, 2, 8, 6, 0));
@@ -71,7 +71,7 @@ fn chunk(to: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
     to.extend(crc.to_be_bytes());
 }
 
-/// Sides that are nothing, small, large, or too large; never two that are large and may be read.
+/// Sides that are zero, small, large, or too large; never two large ones that would be accepted.
 fn sides(random: &mut Random) -> (u32, u32) {
     let large = [16384, 16385, 65535, i32::MAX as u32, u32::MAX];
     match random.below(8) {
@@ -103,7 +103,7 @@ fn make(random: &mut Random) -> Vec<u8> {
         let colors: Vec<u8> = (0..colors).map(|_| random.bits() as u8).collect();
         chunk(&mut bytes, b"PLTE", &colors);
     }
-    // As many bytes as the header promises, or others; rows begin with a filter.
+    // As many bytes as the header promises, or another number; each row begins with a filter.
     let row = 1 + u64::from(width) * 8;
     let promised = row.saturating_mul(u64::from(height)).min(1 << 22) as usize;
     let count = [promised, promised, promised / 2, random.below(100)][random.below(4)];
@@ -118,7 +118,7 @@ fn make(random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// Chunks beside the picture: profiles and texts that unpack to far more than they are, and others.
+/// Further chunks: profiles and texts that expand enormously, and others.
 fn extra(random: &mut Random, to: &mut Vec<u8>) {
     let bomb = || packed(&vec![b'x'; 8 << 20]);
     let few: Vec<u8> = (0..random.below(40)).map(|_| random.bits() as u8).collect();
@@ -134,7 +134,8 @@ fn extra(random: &mut Random, to: &mut Vec<u8>) {
     }
 }
 
-/// Puts the checksums of all chunks right. Makes a JPEG file low, because it may have a side that is large.
+/// Repairs the checksums of all chunks. Reduces the height of a JPEG file, because one of its sides may be
+/// large.
 fn seal(bytes: &mut [u8]) {
     if bytes.starts_with(b"\xff\xd8") {
         let frame = bytes.windows(2).position(|pair| matches!(pair, [0xff, 0xc0..=0xc2]));

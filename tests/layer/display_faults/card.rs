@@ -1,4 +1,4 @@
-//! The card: how fast it seems, and what it tells of its compiler.
+//! The card: its apparent speed, and its compiler's statistics.
 
 use ash::vk;
 use layer::below;
@@ -31,7 +31,7 @@ pub unsafe extern "system" fn properties2(
     }
 }
 
-/// Shortens the tick of the device's clock, so that as many ticks take less time.
+/// Shortens the period of the device's clock, so that the same number of ticks takes less time.
 fn hasten(properties: &mut vk::PhysicalDeviceProperties) {
     if let Some(times) = words::value::<f32>("fast") {
         properties.limits.timestamp_period /= times;
@@ -45,7 +45,7 @@ pub unsafe extern "system" fn create(
     allocator: *const vk::AllocationCallbacks,
     device: *mut vk::Device,
 ) -> vk::Result {
-    // SAFETY: the loader calls this once for each device; the other arguments are the caller's.
+    // SAFETY: the loader calls this once per device; the other arguments are the caller's.
     unsafe {
         let Some(get_proc_addr) = layer::below_device(info) else {
             return vk::Result::ERROR_INITIALIZATION_FAILED;

@@ -1,4 +1,4 @@
-//! The display: its swapchains, and what it says of each image.
+//! The display: its swapchains, and the result for each image.
 
 use std::fs;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -12,7 +12,7 @@ static SWAPCHAINS: AtomicU32 = AtomicU32::new(0);
 static ACQUIRED: AtomicU32 = AtomicU32::new(0);
 static PRESENTED: AtomicU32 = AtomicU32::new(0);
 
-/// Writes what was counted, if someone wants to know.
+/// Writes the counts, if they are requested.
 pub fn tell() {
     let Some(file) = words::value::<String>("tell") else { return };
     let [swapchains, acquired, presented] =
@@ -122,7 +122,7 @@ pub unsafe extern "system" fn present(
     }
 }
 
-/// The display's result for an image that it would accept as it is.
+/// The display's result for an image that it would accept unchanged.
 fn judged(result: vk::Result) -> vk::Result {
     match result {
         vk::Result::SUCCESS if words::has("suboptimal") => vk::Result::SUBOPTIMAL_KHR,

@@ -1,18 +1,18 @@
-//! A Vulkan layer for tests: a display and a card that answer as some do which a software driver is not.
+//! A Vulkan layer for tests: simulates displays and cards that behave unlike a software driver.
 //!
-//! The variable `DISPLAY_FAULTS` holds words, separated by commas:
-//! - `suboptimal`: every image that is acquired or presented is called suboptimal, as by XWayland when a window
-//!   is scaled. The image is presented all the same.
-//! - `out-of-date=N`: the present of that number, from 1 on, shows nothing and finds the swapchain out of date;
-//!   its semaphores are waited for, as Vulkan asks.
-//! - `deep`: the window's one format is `A2B10G10R10_UNORM_PACK32`. Below it is `A2R10G10B10_UNORM_PACK32`, which
-//!   an X server of depth 30 has, and which a software driver can blit to but does not promise to.
-//! - `images=N`: a swapchain has at least so many images.
-//! - `fast=N`: the card's clock ticks so many times as slowly, so that all seems as much faster; and the card is
-//!   no software.
-//! - `no-figures`: the compiler's figures cannot be had.
-//! - `tell=FILE`: when the device is destroyed, the file gets three numbers: how many swapchains were made, how
-//!   many images acquired, and how many presented.
+//! The variable `DISPLAY_FAULTS` contains words, separated by commas:
+//! - `suboptimal`: every acquired or presented image is suboptimal, as in XWayland when a window is scaled.
+//!   The image is presented all the same.
+//! - `out-of-date=N`: the present of that number, from 1 on, shows nothing and returns out of date; its
+//!   semaphores are waited for, as Vulkan requires.
+//! - `deep`: the window's only format is `A2B10G10R10_UNORM_PACK32`. Below it is `A2R10G10B10_UNORM_PACK32`,
+//!   the format of an X server of depth 30, to which a software driver can blit without promising it.
+//! - `images=N`: a swapchain has at least this many images.
+//! - `fast=N`: the card's clock is this many times slower, so that everything seems faster; and the card is
+//!   not a software device.
+//! - `no-figures`: the compiler's statistics are not available.
+//! - `tell=FILE`: when the device is destroyed, three numbers are written to the file: the swapchains
+//!   created, the images acquired, and the images presented.
 
 mod card;
 mod display;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-/// Tests whether the variable holds a word.
+/// Returns whether the variable contains a word.
 pub fn has(word: &str) -> bool {
     words().iter().any(|own| own == word)
 }
@@ -10,7 +10,7 @@ pub fn has(word: &str) -> bool {
 /// The value after `word=` in the variable.
 ///
 /// # Panics
-/// If it is no value of that type.
+/// If the value cannot be parsed as that type.
 pub fn value<T: FromStr>(word: &str) -> Option<T> {
     let words = words();
     let text = words.iter().find_map(|own| own.strip_prefix(word)?.strip_prefix('='))?;

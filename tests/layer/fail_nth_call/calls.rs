@@ -1,4 +1,4 @@
-//! The functions that may fail, how often each was called, and the one call that does.
+//! The functions that may fail, the number of calls of each, and the single call that fails.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_char, c_void};
@@ -8,11 +8,11 @@ use std::sync::{Mutex, OnceLock};
 
 use ash::vk;
 
-/// A function that returns a `VkResult`, with the layer's function in its place.
+/// A function that returns a `VkResult`, and the layer's replacement.
 pub struct Function {
     /// Its name.
     pub name: &'static CStr,
-    /// The handle that the layer gives out for it.
+    /// The address that the layer returns for it.
     pub own: *const c_void,
     below: AtomicUsize,
     calls: AtomicUsize,
@@ -23,8 +23,8 @@ unsafe impl Sync for Function {}
 
 /// Declares [`FUNCTIONS`]: each name with its number of arguments, spelled out as letters.
 ///
-/// Arguments are passed on as they came, each as a machine word: handles, pointers, numbers and flags are
-/// no larger, and the calling conventions of the 64-bit systems pass them all alike.
+/// Arguments are passed on unchanged, each as a machine word: handles, pointers, numbers and flags are no
+/// larger, and the calling conventions of 64-bit systems pass them all in the same way.
 macro_rules! functions {
     ($($name:ident($($argument:ident)*))*) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "the functions' own names")]
@@ -114,7 +114,7 @@ functions! {
     vkSetDebugUtilsObjectNameEXT(a b)
 }
 
-/// The layer's function in place of the one below, if it may fail; else the one below.
+/// The layer's replacement for the function below if it may fail; otherwise the function below.
 ///
 /// # Safety
 /// `name` ends in a zero byte, and `below` is the function of that name.
@@ -133,20 +133,20 @@ pub unsafe fn over(name: *const c_char, below: vk::PFN_vkVoidFunction) -> vk::PF
 }
 
 impl Function {
-    /// Counts a call, and lets it fail if it is the chosen one.
+    /// Counts a call, and makes it fail if it is the chosen one.
     fn answer(&self, arguments: &[usize], below: impl Fn(usize) -> vk::Result) -> vk::Result {
         let number = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
         let below = || below(self.below.load(Ordering::Relaxed));
         match chosen() {
             Some(fault) if fault.meets(self.name, number) => {
-                // A device that is lost does not go on working.
+                // A lost device does not recover.
                 if fault.result == vk::Result::ERROR_DEVICE_LOST && self.name == c"vkWaitForFences"
                 {
                     let _ = below();
                 }
                 if fault.result == vk::Result::SUCCESS && self.name == c"vkMapMemory" {
                     let result = below();
-                    // SAFETY: the last argument is where the pointer goes. `MAP_FAILED` is -1.
+                    // SAFETY: the last argument is the output pointer. `MAP_FAILED` is -1.
                     unsafe { *(arguments[5] as *mut usize) = usize::MAX };
                     return result;
                 }
@@ -157,7 +157,7 @@ impl Function {
     }
 }
 
-/// The fault that the variable `FAIL` names.
+/// The fault in the variable `FAIL`.
 struct Fault {
     name: String,
     when: When,
@@ -166,11 +166,11 @@ struct Fault {
 
 /// The call that fails.
 enum When {
-    /// The one of this number.
+    /// The call with this number.
     At(usize),
-    /// That one and all after it.
+    /// The call with this number, and all after it.
     From(usize),
-    /// The first for which this file is there, which goes with it.
+    /// The first call after this file exists; the file is removed.
     File(PathBuf),
 }
 
@@ -210,7 +210,7 @@ fn chosen() -> Option<&'static Fault> {
     CHOSEN.get_or_init(parse).as_ref()
 }
 
-/// Writes how often each function was called to the file that `CALLS` names, a line a function.
+/// Writes the number of calls of each function to the file in `CALLS`, one line per function.
 pub fn tell() {
     static TOLD: Mutex<()> = Mutex::new(());
     let Some(file) = std::env::var_os("CALLS") else { return };
@@ -221,6 +221,6 @@ pub fn tell() {
         .filter(|(_, calls)| *calls > 0)
         .collect();
     let lines: String = counts.iter().map(|(name, calls)| format!("{name} {calls}\n")).collect();
-    // A test that finds no file fails.
+    // If this fails, the test misses the file and fails.
     let _ = std::fs::write(file, lines);
 }

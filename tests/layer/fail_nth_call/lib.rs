@@ -1,13 +1,13 @@
-//! A Vulkan layer for tests: it lets a chosen call fail.
+//! A Vulkan layer for tests: makes a chosen call fail.
 //!
 //! - `FAIL=vkQueueSubmit2:3:-4`: the third call of that function does nothing and returns that `VkResult`;
 //!   with `3+`, every call from the third on; with a file's path, the next call after the file was made.
 //!   `vkMapMemory:1:0` succeeds, and gives `MAP_FAILED`, as a driver may where address space is short.
 //! - `FAIL=vkCmdCopyImageToBuffer`: each such copy is made twice, with nothing between.
-//! - `CALLS=FILE`: when the instance is destroyed, the file gets a line for each function that may fail and
-//!   was called: its name, and how often.
+//! - `CALLS=FILE`: when the instance is destroyed, one line per function that may fail and was called is
+//!   written to the file: its name, and the number of calls.
 //!
-//! It says nothing of functions that cannot fail, and nothing of those that need no instance.
+//! Functions that cannot fail, and those that need no instance, are not counted.
 
 mod calls;
 mod twice;
@@ -22,15 +22,15 @@ use layer::Negotiation;
 /// The layer's name in its manifest.
 pub const NAME: &str = "VK_LAYER_TESTS_failing";
 
-/// `vkGetInstanceProcAddr` and `vkGetDeviceProcAddr` of the next layer or of the driver. A sample has one
+/// `vkGetInstanceProcAddr` and `vkGetDeviceProcAddr` of the next layer or the driver. A sample has one
 /// instance and one device at a time.
 static BELOW_INSTANCE: Mutex<Option<vk::PFN_vkGetInstanceProcAddr>> = Mutex::new(None);
 static BELOW_DEVICE: Mutex<Option<vk::PFN_vkGetDeviceProcAddr>> = Mutex::new(None);
 static INSTANCE: AtomicU64 = AtomicU64::new(0);
-/// `vkDestroyInstance` of the same. A layer below may have forgotten the instance when it is asked for later.
+/// `vkDestroyInstance` of the same, looked up early: a layer below may have removed the instance by then.
 static DESTROY_INSTANCE: Mutex<Option<vk::PFN_vkDestroyInstance>> = Mutex::new(None);
 
-/// Settles on where functions are found.
+/// Exchanges the functions that look up others.
 ///
 /// # Safety
 /// `negotiation` can be written.
@@ -84,7 +84,7 @@ unsafe extern "system" fn create_instance(
     allocator: *const vk::AllocationCallbacks,
     instance: *mut vk::Instance,
 ) -> vk::Result {
-    // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
+    // SAFETY: the loader calls this once per instance, and the function below has that name.
     unsafe {
         let over = |name, below| calls::over(name, below);
         let next = match layer::create_instance(info, allocator, instance, over) {

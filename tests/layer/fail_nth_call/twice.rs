@@ -1,16 +1,16 @@
-//! A copy that is made twice, with nothing between: a hazard of which synchronization validation tells.
+//! A copy that is made twice without a barrier: a hazard that synchronization validation reports.
 
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ash::vk;
 
-/// The function that copies, and what `FAIL` asks for.
+/// The copying function, as named in `FAIL`.
 pub const NAME: &str = "vkCmdCopyImageToBuffer";
 
 static BELOW: AtomicUsize = AtomicUsize::new(0);
 
-/// The layer's function in place of the one below, if `FAIL` asks for it.
+/// The layer's replacement for the function below, if `FAIL` names it.
 ///
 /// # Safety
 /// `below` is the function of that name.

@@ -1,4 +1,4 @@
-//! Commands that read and write buffers and acceleration structures, as [`order`] counts them.
+//! Commands that read and write buffers and acceleration structures, as tracked by [`order`].
 
 use std::collections::BTreeSet;
 use std::ffi::c_void;
@@ -16,24 +16,24 @@ const STRUCTURE_READ: Use = (BUILD, Access::ACCELERATION_STRUCTURE_READ_KHR);
 const STRUCTURE_WRITE: Use = (BUILD, Access::ACCELERATION_STRUCTURE_WRITE_KHR);
 const COPY: Use = (Stage::COPY, Access::TRANSFER_WRITE);
 const CLEAR: Use = (Stage::CLEAR, Access::TRANSFER_WRITE);
-/// Kinds that shaders write.
+/// The kinds that shaders write.
 const OUTPUTS: [Kind; 2] = [Kind::Traced, Kind::Computed];
 
-/// Buffers and acceleration structures that no trace or build has seen: to write them, no command must wait.
+/// Buffers and acceleration structures that no trace or build has used yet: writing them needs no barrier.
 static NEW: Mutex<BTreeSet<u64>> = Mutex::new(BTreeSet::new());
-/// Buffers for copies alone, which the host maps.
+/// Buffers used only for copies, which the host maps.
 static MAPPED: Mutex<BTreeSet<u64>> = Mutex::new(BTreeSet::new());
 /// Buffers that are shader binding tables.
 static TABLES: Mutex<BTreeSet<u64>> = Mutex::new(BTreeSet::new());
 
-/// Addresses of the scratch of builds.
+/// The scratch addresses of builds.
 static SCRATCH: Mutex<BTreeSet<u64>> = Mutex::new(BTreeSet::new());
 
 fn locked(set: &Mutex<BTreeSet<u64>>) -> MutexGuard<'_, BTreeSet<u64>> {
     set.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A buffer was made, perhaps with the handle of an older one.
+/// Records a new buffer, which may have the handle of an older one.
 pub fn made(buffer: vk::Buffer, usage: Usage) {
     locked(&NEW).insert(buffer.as_raw());
     let is_mapped = (Usage::TRANSFER_SRC | Usage::TRANSFER_DST).contains(usage);
@@ -47,11 +47,11 @@ pub fn made(buffer: vk::Buffer, usage: Usage) {
     }
 }
 
-/// A copy or an update of a buffer.
+/// Records a copy to, or an update of, a buffer.
 fn fills(command: &str, buffer: vk::Buffer) {
     let is_in = |set| locked(set).contains(&buffer.as_raw());
     if is_in(&MAPPED) {
-        // For the host, the program waits with a fence.
+        // For the host, the program waits on a fence.
         return order::writes(Kind::ReadBack, COPY);
     }
     let kind = if is_in(&TABLES) { Kind::Tables } else { Kind::Filled };
@@ -83,7 +83,7 @@ pub unsafe extern "system" fn build(
     ranges: *const *const vk::AccelerationStructureBuildRangeInfoKHR,
 ) {
     const NAME: &str = "vkCmdBuildAccelerationStructuresKHR";
-    // SAFETY: as above; there are so many infos.
+    // SAFETY: as above; there are `count` infos.
     let own = unsafe { std::slice::from_raw_parts(infos, count as usize) };
     if own.iter().any(|info| !locked(&NEW).contains(&info.dst_acceleration_structure.as_raw())) {
         order::waits(NAME, Kind::Built, BUILD);
@@ -95,7 +95,7 @@ pub unsafe extern "system" fn build(
         order::reads(NAME, Kind::Built, STRUCTURE_READ);
         order::reads(NAME, Kind::Copied, STRUCTURE_READ);
     }
-    // SAFETY: an address is one of the union's two members, and as wide as the other.
+    // SAFETY: both members of the union are addresses of the same size.
     let scratch = own.iter().map(|info| unsafe { info.scratch_data.device_address });
     if scratch.filter(|&address| !locked(&SCRATCH).insert(address)).count() > 0 {
         order::reads(NAME, Kind::Built, STRUCTURE_WRITE);

@@ -1,4 +1,4 @@
-//! A device made and destroyed, and its swapchain.
+//! Creates and destroys a device and its swapchain.
 
 use std::ffi::CStr;
 
@@ -13,7 +13,7 @@ pub unsafe extern "system" fn create(
     allocator: *const vk::AllocationCallbacks,
     device: *mut vk::Device,
 ) -> vk::Result {
-    // SAFETY: the loader calls this once for each device; the other arguments are the caller's.
+    // SAFETY: the loader calls this once per device; the other arguments are the caller's.
     unsafe {
         let Some(get_proc_addr) = layer::below_device(info) else {
             return vk::Result::ERROR_INITIALIZATION_FAILED;
@@ -29,10 +29,10 @@ pub unsafe extern "system" fn create(
         if !names.iter().all(is_shown) {
             return vk::Result::ERROR_EXTENSION_NOT_PRESENT;
         }
-        // What this layer adds, the device below does not know.
+        // The device below does not know what this layer adds.
         names.retain(|name| *name != khr::portability_subset::NAME);
         let names: Vec<_> = names.iter().map(|name| name.as_ptr()).collect();
-        // However many families are asked for, the one below serves them all.
+        // One family below serves all requested ones.
         let family = queues::family_below(physical);
         let asked = (*info).p_queue_create_infos;
         let asked = std::slice::from_raw_parts(asked, (*info).queue_create_info_count as usize);

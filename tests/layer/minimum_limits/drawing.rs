@@ -1,6 +1,6 @@
-//! Drawing for a compute shader that reads what was drawn, as [`order`] counts it.
+//! Drawing for a compute shader that reads the result, as tracked by [`order`].
 //!
-//! The panel of a window draws last, to an image of the window: it is left to the validation layer.
+//! A window's panel draws last, to an image of the window: the validation layer checks that.
 
 use ash::vk::{self, AccessFlags2 as Access, PipelineStageFlags2 as Stage};
 use layer::below;

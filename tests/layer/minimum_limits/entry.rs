@@ -1,4 +1,4 @@
-//! Entry points of the layer for the loader, and the lists of the layer's own functions.
+//! The layer's entry points for the loader, and the lists of its own functions.
 
 use std::ffi::{c_char, c_void};
 
@@ -8,7 +8,7 @@ use layer::Negotiation;
 use crate::{commands, device, drawing, memory, physical, queues, rays};
 use layer::below;
 
-/// Settles on version 2 of the interface, the present one.
+/// Negotiates version 2 of the interface, the current one.
 ///
 /// # Safety
 /// `negotiation` can be written.
@@ -52,7 +52,7 @@ fn instance_function(name: &str) -> Option<*const c_void> {
     })
 }
 
-/// The layer's function of this name, if it has one for devices and what belongs to them.
+/// The layer's function of this name, if it has one for devices and their objects.
 fn device_function(name: &str) -> Option<*const c_void> {
     Some(match name {
         "vkGetDeviceProcAddr" => get_device_proc_addr as *const c_void,

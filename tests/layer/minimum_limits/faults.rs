@@ -1,11 +1,11 @@
-//! Faults that the variable `MINIMUM_LIMITS` names, beyond narrow limits.
+//! Faults in the variable `MINIMUM_LIMITS`, beyond narrow limits.
 
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{memory, queues};
 
-/// Tests whether the variable holds a word.
+/// Returns whether the variable contains a word.
 pub fn has(word: &str) -> bool {
     words().iter().any(|own| own == word)
 }
@@ -15,7 +15,7 @@ pub fn value(word: &str) -> Option<String> {
     words().iter().find_map(|own| Some(own.strip_prefix(word)?.strip_prefix('=')?.to_owned()))
 }
 
-/// Writes what was counted, if someone wants to know.
+/// Writes the counts, if they are requested.
 pub fn tell() {
     let Some(file) = value("tell") else { return };
     let [device, host, both] = memory::counts();
@@ -23,7 +23,7 @@ pub fn tell() {
     fs::write(&file, told).unwrap_or_else(|error| panic!("{file}: {error}"));
 }
 
-/// Tests whether the swapchain that is being made fails: the first, with `out-of-date`.
+/// Returns whether the swapchain being created fails: the first one, with `out-of-date`.
 pub fn first_swapchain_is_out_of_date() -> bool {
     static DONE: AtomicBool = AtomicBool::new(false);
     has("out-of-date") && !DONE.swap(true, Ordering::Relaxed)

@@ -6,7 +6,8 @@ use ash::vk::{FALSE, TRUE};
 
 use crate::faults;
 
-/// Of Vulkan 1.0. Acceleration structures bring descriptor indexing, and that the indexing.
+/// The features of Vulkan 1.0. Acceleration structures require descriptor indexing, and that requires dynamic
+/// indexing.
 pub fn core() -> vk::PhysicalDeviceFeatures {
     vk::PhysicalDeviceFeatures {
         robust_buffer_access: TRUE,
@@ -71,17 +72,17 @@ fn vulkan13() -> vk::PhysicalDeviceVulkan13Features<'static> {
     }
 }
 
-/// A feature's value, unless the variable takes it away.
+/// A feature's value, unless the variable removes it.
 fn keep(name: &str, value: &mut vk::Bool32) {
     if faults::value("without").is_some_and(|without| without == name) {
         *value = FALSE;
     }
 }
 
-/// Makes one structure of a chain say what is required, if it is one that these samples ask for.
+/// Reduces one structure of a chain to the required features, if it is one that these samples use.
 pub fn narrow(link: *mut vk::BaseOutStructure) {
     use vk::StructureType as Type;
-    // SAFETY: the link is the caller's, and its type says what it is; its place in the chain is kept.
+    // SAFETY: the link is the caller's, and its type identifies it; its place in the chain is preserved.
     unsafe {
         let p_next = (*link).p_next.cast();
         match (*link).s_type {

@@ -1,7 +1,7 @@
 //! The limits: table "Required Limits" of the Vulkan 1.3 specification, chapter "Limits".
 //!
-//! A limit of type *min* is the number in the table, which a device may exceed; one of type *max*, as
-//! alignments are, may be smaller. Either way the number in the table is what a program may rely on.
+//! A limit of type *min* is the number in the table, which a device may exceed; one of type *max*, such as an
+//! alignment, may be smaller. In both cases, a program may rely on the number in the table.
 
 use ash::vk;
 
@@ -10,7 +10,7 @@ use crate::faults;
 /// The longest side of an image.
 pub const IMAGE_SIDE: u32 = 4096;
 
-/// The alignment of buffers by some drivers, which then is their limit for all offsets.
+/// The alignment of buffers by some drivers, which then becomes the limit for all offsets.
 pub const LOOSE: u64 = 4;
 
 const LIMITED_SAMPLES: vk::SampleCountFlags = vk::SampleCountFlags::from_raw(
@@ -22,7 +22,7 @@ pub fn core(properties: &mut vk::PhysicalDeviceProperties) {
     properties.api_version = properties.api_version.min(vk::make_api_version(0, 1, 3, 999));
     let name = properties.device_name_as_c_str().unwrap_or_default().to_string_lossy();
     let name = std::ffi::CString::new(format!("narrow {name}")).unwrap_or_default();
-    // A name that is too long stays what it was.
+    // If the name is too long, it is unchanged.
     if let Ok(named) = properties.device_name(&name) {
         *properties = named;
     }
@@ -62,7 +62,7 @@ pub fn core(properties: &mut vk::PhysicalDeviceProperties) {
         max_vertex_input_attribute_offset: 2047,
         max_vertex_input_binding_stride: 2048,
         max_vertex_output_components: 64,
-        // Neither tessellation nor geometry shaders.
+        // No tessellation or geometry shaders.
         max_tessellation_generation_level: 0,
         max_tessellation_patch_size: 0,
         max_tessellation_control_per_vertex_input_components: 0,
@@ -138,10 +138,10 @@ pub fn core(properties: &mut vk::PhysicalDeviceProperties) {
     };
 }
 
-/// Narrows one structure of a chain, if it is one that these samples depend on.
+/// Narrows one structure of a chain, if these samples depend on it.
 pub fn narrow(link: *mut vk::BaseOutStructure) {
     use vk::StructureType as Type;
-    // SAFETY: the link is the caller's, and its type says what it is.
+    // SAFETY: the link is the caller's, and its type identifies it.
     unsafe {
         match (*link).s_type {
             Type::PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES => vulkan11(&mut *link.cast()),
@@ -213,7 +213,7 @@ fn vulkan13(own: &mut vk::PhysicalDeviceVulkan13Properties) {
     own.max_buffer_size = 1 << 30;
 }
 
-/// Two structures of Vulkan hold the same limits under the same names.
+/// Two structures of Vulkan contain the same limits under the same names.
 macro_rules! float_controls {
     ($own:ident) => {
         $own.denorm_behavior_independence = vk::ShaderFloatControlsIndependence::NONE;

@@ -1,4 +1,5 @@
-//! Memory as on a discrete card: what the device is fast with the host cannot map, and the reverse.
+//! Memory as on a discrete card: the host cannot map the device's fast memory, and the device is slow with
+//! the host's.
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
@@ -11,25 +12,25 @@ use ash::vk::Handle;
 use crate::{faults, limits};
 use layer::below;
 
-/// The type that only the device reads and writes.
+/// The type that only the device accesses.
 const DEVICE: u32 = 0;
 /// The type that the host maps.
 const HOST: u32 = 1;
-/// With `bar`: the type that lies in the device, and the host maps all the same.
+/// With `bar`: the type in device memory that the host can map.
 const BOTH: u32 = 2;
-/// The bytes of each heap, unless the variable says otherwise. The specification promises no size.
+/// The size of each heap, unless the variable sets it. The specification promises no size.
 const HEAP: u64 = 1 << 30;
 
-/// Allocations in the device's heap: type and size.
+/// The allocations that count against the device's heap, with type and size.
 static ALLOCATED: Mutex<BTreeMap<u64, (u32, u64)>> = Mutex::new(BTreeMap::new());
-/// Number of allocations of each type.
+/// The number of allocations of each type.
 static COUNTS: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
 fn heap() -> u64 {
     faults::value("heap").map_or(HEAP, |bytes| bytes.parse().expect("heap= is followed by bytes"))
 }
 
-/// The types below that stand for those shown.
+/// The types below that implement those shown.
 fn types_below(physical: vk::PhysicalDevice) -> [u32; 3] {
     // SAFETY: the physical device is alive.
     let all =
@@ -67,14 +68,14 @@ fn shown() -> vk::PhysicalDeviceMemoryProperties {
     shown
 }
 
-/// A buffer's memory as aligned as a driver may leave it.
+/// Reduces a buffer's alignment to one that a driver may use.
 fn loosen(requirements: &mut vk::MemoryRequirements) {
     if faults::has("loose-buffers") {
         requirements.alignment = limits::LOOSE;
     }
 }
 
-/// The types shown that a resource may lie in, by those below that it may lie in.
+/// Converts the memory types of a resource from those below to those shown.
 fn narrow(device: vk::Device, requirements: &mut vk::MemoryRequirements) {
     let types = types_below(below::device(device).physical);
     let bits = requirements.memory_type_bits;
@@ -89,7 +90,7 @@ pub unsafe extern "system" fn properties(
     _: vk::PhysicalDevice,
     properties: *mut vk::PhysicalDeviceMemoryProperties,
 ) {
-    // SAFETY: the caller's can be written.
+    // SAFETY: the caller's structure can be written.
     unsafe { *properties = shown() };
 }
 
@@ -203,7 +204,7 @@ pub unsafe extern "system" fn map(
     data: *mut *mut c_void,
 ) -> vk::Result {
     let allocated = ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner);
-    // Undefined where the host cannot see it; the driver below, whose host sees all, would map it.
+    // Undefined if the host cannot see it; the driver below would map it, because its host sees everything.
     if allocated.get(&memory.as_raw()).is_some_and(|(own, _)| *own == DEVICE) {
         return vk::Result::ERROR_MEMORY_MAP_FAILED;
     }
@@ -212,12 +213,12 @@ pub unsafe extern "system" fn map(
     unsafe { map(device, memory, offset, size, flags, data) }
 }
 
-/// Number of allocations: in memory that the host cannot map, in the host's memory, in both.
+/// The number of allocations: in memory that the host cannot map, in host memory, and in both.
 pub fn counts() -> [u32; 3] {
     COUNTS.each_ref().map(|count| count.load(Ordering::Relaxed))
 }
 
-/// Forgets the allocations of a device that is destroyed.
+/// Removes the allocations of a device at its destruction.
 pub fn forget_all() {
     ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner).clear();
 }

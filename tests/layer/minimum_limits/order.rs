@@ -1,56 +1,59 @@
-//! The order of commands, as far as barriers make it.
+//! The order of commands, as established by barriers.
 //!
-//! A driver that runs one command after the other, as the software driver does, never shows that a barrier is missing,
-//! and the validation layer of Debian 12 follows neither builds nor addresses. So this model ends the process where a
-//! command uses what an earlier one wrote, or overwrites what an earlier one reads, and no memory barrier between them
-//! names both stages and both accesses (Vulkan specification, "Memory Dependencies").
+//! A driver that runs commands one after the other, like the software driver, never reveals a missing
+//! barrier, and the validation layer of Debian 12 tracks neither builds nor addresses. This model therefore
+//! ends the process if a command uses the result of an earlier one, or overwrites what an earlier one reads,
+//! and no memory barrier between them has both stages and both accesses (Vulkan specification, "Memory
+//! Dependencies").
 //!
-//! It is coarse, as the barriers of the samples are: a [`Kind`] stands for all resources of that kind. Commands count
-//! in the order of recording, which is that of submission in the samples. Layouts of images are left to the validation
-//! layer.
+//! It is coarse, like the barriers of the samples: a [`Kind`] stands for all resources of that kind. Commands
+//! count in recording order, which in the samples is also the order of submission. Image layouts are left to
+//! the validation layer.
 
 use std::sync::{Mutex, PoisonError};
 
 use ash::vk::{AccessFlags2 as Access, PipelineStageFlags2 as Stage};
 
-/// Resources that one barrier of the samples is about.
+/// The resources covered by one barrier of the samples.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
-    /// Acceleration structures that were built.
+    /// Built acceleration structures.
     Built,
-    /// Acceleration structures that were copied.
+    /// Copied acceleration structures.
     Copied,
-    /// What copies and updates write: geometry, transforms, materials.
+    /// The results of copies and updates: geometry, transforms, materials.
     Filled,
     /// Shader binding tables.
     Tables,
-    /// What is cleared for shaders to add to.
+    /// Cleared resources to which shaders add.
     Cleared,
-    /// What shaders write that trace rays.
+    /// The results of shaders that trace rays.
     Traced,
-    /// What compute shaders write.
+    /// The results of compute shaders.
     Computed,
-    /// What is drawn.
+    /// The results of drawing.
     Drawn,
-    /// What the host reads.
+    /// Results that the host reads.
     ReadBack,
 }
 
-/// A stage, and how it touches memory.
+/// A stage, and its access to memory.
 pub type Use = (Stage, Access);
 
-/// The last writes of a kind, and what happened since.
+/// The last writes of a kind, and the accesses since.
 struct Known {
     written: Option<Use>,
-    /// What may use them, by the barriers since.
+    /// The uses that barriers have made safe since.
     seen_by: Vec<Use>,
-    /// Stages that have read them, each with those that wait for it, by the barriers since.
+    /// The stages that have read them, each with the stages that wait for it, according to the barriers
+    /// since.
     read: Vec<(Stage, Stage)>,
 }
 
 static KNOWN: Mutex<[Known; 9]> = Mutex::new([const { Known::new() }; 9]);
 
-/// A command reads, or adds to what was written. Ends the process unless a barrier shows it that.
+/// Records that a command reads, or adds to, earlier results. Ends the process unless a barrier makes them
+/// visible.
 pub fn reads(command: &str, kind: Kind, by: Use) {
     with(kind, |known| {
         if let Some(written) = known.written {
@@ -62,7 +65,7 @@ pub fn reads(command: &str, kind: Kind, by: Use) {
     });
 }
 
-/// A command is about to overwrite. Ends the process unless it waits for all that may still read.
+/// Checks that a command may overwrite. Ends the process unless it waits for all stages that may still read.
 pub fn waits(command: &str, kind: Kind, by: Stage) {
     with(kind, |known| {
         for &(reader, waiting) in &known.read {
@@ -72,7 +75,7 @@ pub fn waits(command: &str, kind: Kind, by: Stage) {
     });
 }
 
-/// A command writes.
+/// Records that a command writes.
 pub fn writes(kind: Kind, by: Use) {
     with(kind, |known| {
         let unseen = known.written.filter(|_| known.seen_by.is_empty());
@@ -82,13 +85,13 @@ pub fn writes(kind: Kind, by: Use) {
     });
 }
 
-/// A memory barrier.
+/// Records a memory barrier.
 pub fn barrier(from: Use, to: Use) {
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     apply(&mut known[..], from, to);
 }
 
-/// A barrier of an image: in the samples only those of what is drawn say more than a layout.
+/// Records an image barrier: in the samples, only those for drawn images do more than change a layout.
 pub fn image_barrier(from: Use, to: Use) {
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     apply(std::slice::from_mut(&mut known[Kind::Drawn as usize]), from, to);
@@ -119,7 +122,7 @@ fn with(kind: Kind, act: impl FnOnce(&mut Known)) {
     act(&mut KNOWN.lock().unwrap_or_else(PoisonError::into_inner)[kind as usize]);
 }
 
-/// The stages that a name stands for, as far as the model has them.
+/// The stages included in a name, as far as the model distinguishes them.
 fn stages(named: Stage) -> Stage {
     let transfer = Stage::COPY | Stage::CLEAR | Stage::BLIT | Stage::RESOLVE;
     let all = transfer
@@ -137,7 +140,7 @@ fn stages(named: Stage) -> Stage {
     meant
 }
 
-/// The accesses that a name stands for, as far as the model has them.
+/// The accesses included in a name, as far as the model distinguishes them.
 fn accesses(named: Access) -> Access {
     let mut meant = named;
     if named.contains(Access::SHADER_READ) {

@@ -1,4 +1,4 @@
-//! Answers about the device: its properties, features, extensions, and its surfaces.
+//! Queries about the device: its properties, features, extensions and surfaces.
 
 use std::ffi::{CStr, c_char, c_void};
 
@@ -7,20 +7,21 @@ use ash::{khr, vk};
 use crate::{faults, features, limits};
 use layer::below;
 
-/// All that the samples ask for; what is not here, the device does not have.
+/// All extensions the samples use; the device has no others.
 const EXTENSIONS: [&CStr; 2] = [khr::push_descriptor::NAME, khr::swapchain::NAME];
 
-/// The same of samples that trace rays.
+/// The extensions of samples that trace rays.
 const RAY_TRACING: [&CStr; 3] = [
     khr::acceleration_structure::NAME,
     khr::deferred_host_operations::NAME,
     khr::ray_tracing_pipeline::NAME,
 ];
 
-/// The same of samples whose rays need no pipeline, or fetch positions: a narrow device need not have them.
+/// The extensions of samples that trace without a pipeline, or fetch positions: a narrow device may lack
+/// them.
 const QUERIES: [&CStr; 2] = [khr::ray_query::NAME, khr::ray_tracing_position_fetch::NAME];
 
-/// The extensions that the device shows.
+/// The extensions the device reports.
 pub fn shown(physical: vk::PhysicalDevice) -> Result<Vec<vk::ExtensionProperties>, vk::Result> {
     let below = below::instance(physical);
     // SAFETY: the physical device is alive.
@@ -86,7 +87,7 @@ pub unsafe extern "system" fn properties2(
     physical: vk::PhysicalDevice,
     properties: *mut vk::PhysicalDeviceProperties2,
 ) {
-    // SAFETY: as above; a structure's type says what it is.
+    // SAFETY: as above; the type of a structure identifies it.
     unsafe {
         let ask = below::instance(physical).core.fp_v1_1().get_physical_device_properties2;
         without_hidden(properties.cast(), || {
@@ -120,10 +121,11 @@ pub unsafe extern "system" fn features2(
     }
 }
 
-/// Calls `f` while a chain lacks the structures of hidden extensions: a device fills none that it does not know.
+/// Calls `f` with the structures of hidden extensions removed from a chain, because a device does not fill
+/// those.
 unsafe fn without_hidden(head: *mut vk::BaseOutStructure, f: impl FnOnce()) {
     let (mut at, mut hidden) = (head, Vec::new());
-    // SAFETY: the chain is the caller's and ends in null; each structure is put back where it was.
+    // SAFETY: the chain is the caller's and ends in null; each structure is put back in its place.
     unsafe {
         while let Some(next) = (*at).p_next.as_mut() {
             if faults::has("no-ray-tracing") && is_of_rays(next.s_type) {
@@ -140,7 +142,7 @@ unsafe fn without_hidden(head: *mut vk::BaseOutStructure, f: impl FnOnce()) {
     }
 }
 
-/// Tests whether a structure belongs to an extension of ray tracing.
+/// Returns whether a structure belongs to a ray tracing extension.
 fn is_of_rays(kind: vk::StructureType) -> bool {
     use vk::StructureType as Type;
     [
@@ -197,7 +199,7 @@ pub unsafe extern "system" fn surface_capabilities(
     unsafe {
         let ask = below::instance(physical).surface.get_physical_device_surface_capabilities_khr;
         let result = ask(physical, surface, capabilities);
-        // Drawing to it is all that the specification promises.
+        // The specification only promises drawing to it.
         if faults::has("no-transfer-dst") {
             (*capabilities).supported_usage_flags = vk::ImageUsageFlags::COLOR_ATTACHMENT;
         }

@@ -1,4 +1,4 @@
-//! Queue families: the one below appears as several, of which not every one can trace.
+//! Queue families: the one below appears as several, of which some cannot trace.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -9,9 +9,9 @@ use layer::below;
 
 static SUBMITS: AtomicU32 = AtomicU32::new(0);
 
-/// The families that the device shows: one that only copies, one that computes, and one with graphics, as
-/// some family must have both if any has graphics (chapter "Devices and Queues"). That they can copy too
-/// goes without saying, and the specification lets it go unsaid. None has timestamps.
+/// The families the device shows: one that only copies, one that computes, and one with graphics, because one
+/// family must have both if any has graphics (chapter "Devices and Queues"). The transfer bit is implied and
+/// therefore left out, as the specification allows. None has timestamps.
 fn shown() -> Vec<vk::QueueFamilyProperties> {
     let family = |flags| {
         vk::QueueFamilyProperties::default()
@@ -21,7 +21,7 @@ fn shown() -> Vec<vk::QueueFamilyProperties> {
             .min_image_transfer_granularity(vk::Extent3D { width: 1, height: 1, depth: 1 })
     };
     let mut families = vec![family(vk::QueueFlags::TRANSFER), family(vk::QueueFlags::COMPUTE)];
-    // A queue that only copies may do so with whole images alone.
+    // A queue that only copies may be limited to whole images.
     families[0].min_image_transfer_granularity = vk::Extent3D::default();
     if !faults::has("compute-only") {
         families.push(family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE));
@@ -154,7 +154,7 @@ pub unsafe extern "system" fn submit2(
     unsafe { (below::device(queue).core.fp_v1_3().queue_submit2)(queue, count, submits, fence) }
 }
 
-/// Number of submissions.
+/// The number of submissions.
 pub fn submits() -> u32 {
     SUBMITS.load(Ordering::Relaxed)
 }

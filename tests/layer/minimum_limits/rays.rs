@@ -1,17 +1,18 @@
-//! Names that a program must not use where ray tracing is hidden, and that a validation layer as old as 1.3.239
-//! does not notice.
+//! Flags that a program must not use if ray tracing is hidden, and that a validation layer as old as 1.3.239
+//! does not detect.
 
 use ash::vk::{self, BufferUsageFlags as Usage, PipelineStageFlags2 as Stage};
 use layer::below;
 
 use crate::{commands, faults, order};
 
-/// The usages of buffers that are of ray tracing (VUID-VkBufferCreateInfo-None-09499).
+/// The buffer usages of ray tracing (VUID-VkBufferCreateInfo-None-09499).
 const USAGES: u32 = Usage::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR.as_raw()
     | Usage::ACCELERATION_STRUCTURE_STORAGE_KHR.as_raw()
     | Usage::SHADER_BINDING_TABLE_KHR.as_raw();
 
-/// The stages that are (VUID-VkMemoryBarrier2-srcStageMask-07946, -10751, and the same of the other barriers).
+/// The stages of ray tracing (VUID-VkMemoryBarrier2-srcStageMask-07946, -10751, and those of the other
+/// barriers).
 const STAGES: u64 =
     Stage::ACCELERATION_STRUCTURE_BUILD_KHR.as_raw() | Stage::RAY_TRACING_SHADER_KHR.as_raw();
 
@@ -37,13 +38,13 @@ pub unsafe extern "system" fn barrier(
     commands: vk::CommandBuffer,
     info: *const vk::DependencyInfo,
 ) {
-    // SAFETY: the arguments are the caller's; each list has as many members as it says, if any.
+    // SAFETY: the arguments are the caller's; each list has the given length.
     unsafe {
         let vk::DependencyInfo { memory_barrier_count, p_memory_barriers, .. } = *info;
         for at in 0..memory_barrier_count as usize {
             let one = &*p_memory_barriers.add(at);
             let stages = one.src_stage_mask | one.dst_stage_mask;
-            // No barrier can fail: the process ends with the message.
+            // A barrier cannot fail, so the process ends with the message.
             let hidden = faults::has("no-ray-tracing") && stages.as_raw() & STAGES != 0;
             assert!(!hidden, "a barrier names {stages:?}");
             let from = (one.src_stage_mask, one.src_access_mask);

@@ -1,4 +1,4 @@
-//! The page *What hardware computes*: its figures and its charts are those of the cards.
+//! The page *What hardware computes*: its figures and charts come from the cards.
 
 use run::expected;
 use run::plot::{self, Axis, Chart, Series};
@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::{case, cases, number, row};
 
-/// The cards of the page, by the names of its measurements.
+/// The cards of the page, by the names of their measurements.
 const CARDS: [(&str, &str); 4] = [
     ("llvmpipe", "llvmpipe-llvm-15-0-6-256-bits"),
     ("newer", "llvmpipe-llvm-22-1-8-256-bits"),
@@ -21,7 +21,7 @@ fn card(file: &str) -> Value {
     serde_json::from_str::<Value>(&text).expect("a card is JSON")["atlas"].take()
 }
 
-/// Every number of every case, as the page names them: `distance-10.t-max`.
+/// Every number of every case, under its name on the page: `distance-10.t-max`.
 fn values(atlas: &Value) -> Map<String, Value> {
     let mut values = Map::new();
     for row in atlas["rows"].as_array().expect("rows") {
@@ -51,7 +51,7 @@ fn the_page_tells_what_cards_say() {
     }
 }
 
-/// Points of a row's cases whose names begin with `varied`, by the number that follows.
+/// The points of a row's cases whose names begin with `varied`, by the number after it.
 fn points(
     atlas: &Value,
     name: &str,
@@ -72,30 +72,30 @@ const fn logarithmic<'a>(label: &'a str, ticks: &'a [f64]) -> Axis<'a> {
     Axis { label, ticks, logarithmic: true }
 }
 
-/// The errors that a chart shows.
+/// The errors in a chart.
 struct Shown<'a> {
     file: &'a str,
-    /// As the cards name them, and by how much they are multiplied.
+    /// The name on the cards, and a factor.
     of: &'a str,
     scale: f64,
     label: &'a str,
     ticks: &'a [f64],
 }
 
-/// A panel for each thing that is varied: the largest errors, and those that 99 of 100 rays do not exceed.
+/// A panel per varied parameter: the largest errors, and those that 99 of 100 rays do not exceed.
 fn triangles(shown: &Shown, [llvmpipe, worst, h200]: [&Value; 3]) {
     let panel = |varied, x: &dyn Fn(f64) -> f64, axis| {
         let line = |name, atlas, part: &str| {
             let y = format!("{} {part}", shown.of);
             let mut points = points(atlas, "triangles", varied, x, &y);
             if varied == "size" {
-                // One that varies nothing: among the distances it is that of 10.
+                // A case that varies nothing: among the distances, this is 10.
                 let found = case(atlas, "triangles", "distance 10");
                 points.push([1.0, number(found, &y)]);
                 points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             }
             points.iter_mut().for_each(|point| point[1] *= shown.scale);
-            // A legend beside the panels is enough.
+            // One legend, next to the panels, is enough.
             let name = if varied == "tilt" { name } else { "" };
             Series { name, points, line: true, dots: true, ..Series::default() }
         };
@@ -122,7 +122,7 @@ fn triangles(shown: &Shown, [llvmpipe, worst, h200]: [&Value; 3]) {
     plot::draw(shown.file, (330, 300), &charts);
 }
 
-/// A dot a case: how many rays are lost, and how many met two triangles.
+/// One dot per case: the lost rays, and the rays that hit two triangles.
 fn seams(atlas: &Value) {
     let rays = atlas["rays"].as_f64().expect("rays");
     let dots = |what: &'static str| {
@@ -147,7 +147,7 @@ fn seams(atlas: &Value) {
             logarithmic: false,
         },
         series: vec![
-            // The first colour is the darkest: names are small, and must stand out.
+            // The first colour is the darkest: names are small, and need contrast.
             series("corners", corners, names.iter().map(String::as_str).collect()),
             series("edges", edges, Vec::new()),
         ],
@@ -155,7 +155,7 @@ fn seams(atlas: &Value) {
     plot::draw("what-hardware-computes_seams.svg", (620, 380), &[chart]);
 }
 
-/// By how much a box grows, from how far away.
+/// The growth of a box, by distance.
 fn boxes(atlas: &Value) {
     let line = |name, y| Series {
         name,

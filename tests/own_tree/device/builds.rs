@@ -1,4 +1,4 @@
-//! Trees as they are built.
+//! Trees right after a build.
 
 use common::scene::Scene;
 use glam::Vec3;
@@ -42,17 +42,17 @@ fn what_is_hard_to_sort_ends_in_bounded_depth() {
         let built = bench.checked(shape);
         depth(&built.nodes)
     };
-    // Their codes are the same, so that their positions make a balanced tree: 2^17 are more.
+    // Their codes are equal, so that the positions give a balanced tree: 2^17 are more than that.
     assert_eq!(deep(&shapes::in_one_place(100_000)), 17);
     assert_eq!(deep(&shapes::in_one_place(3)), 2);
-    // Each at half the distance of the one before: the tree is a list, as long as there are bits, and then the same
-    // once more.
+    // Each at half the distance of the previous one: the tree is a list of one level per bit, and then
+    // balanced below.
     assert!(deep(&shapes::halving(1000)) <= 40);
     for scale in [1e9, 1e38, 1e-18, 1e-36] {
         bench.checked(&shapes::soup(500, 3).scaled(scale));
     }
     bench.checked(&shapes::flat(500));
-    // In one direction all that floats have.
+    // One direction spans the whole range of floats.
     bench.checked(&shapes::soup(500, 3).stretched(Vec3::new(3.4e38, 1.0, 1e-30)));
 }
 
@@ -162,7 +162,7 @@ fn what_does_not_fit_is_refused_in_one_line() {
     assert!(error.starts_with("1073741824 triangles are too many"), "{error}");
 }
 
-/// Number of nodes on the longest path from the root.
+/// The number of nodes on the longest path from the root.
 fn depth(nodes: &[Node]) -> u32 {
     let mut open = vec![(0, 1)];
     let mut deepest = 0;

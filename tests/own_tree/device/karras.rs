@@ -1,4 +1,4 @@
-//! The plain way to the same hierarchy: keys sorted by the host, and ranges split from the top.
+//! A plain way to build the same hierarchy: keys sorted on the host, and ranges split from the top.
 
 use glam::Vec3;
 
@@ -8,8 +8,8 @@ use super::shapes::Shape;
 /// The key of a triangle that is not finite.
 pub const NOT_FINITE: u32 = 0x3fff_ffff;
 
-/// The Morton code of each triangle, by the same arithmetic as on a device that rounds every operation to nearest,
-/// division too.
+/// The Morton code of each triangle, with the same arithmetic as a device that rounds every operation to
+/// nearest, including division.
 pub fn codes(shape: &Shape) -> Vec<u32> {
     let centres = shape
         .triangles
@@ -26,17 +26,17 @@ pub fn codes(shape: &Shape) -> Vec<u32> {
             let part = 0.5 * centre[axis] - 0.5 * low[axis];
             ((1024.0 * (part / side)) as u32).min(1023)
         });
-        // A bit of x, of y, of z, from the highest to the lowest.
+        // One bit each of x, y and z, from the highest to the lowest.
         let bits = (0..10).rev().flat_map(|bit| cell.map(|number| number >> bit & 1));
         bits.fold(0, |code, bit| code << 1 | bit).min(NOT_FINITE - 1)
     };
     centres.iter().map(|centre| centre.map_or(NOT_FINITE, code)).collect()
 }
 
-/// Of each node: what its children are, a node or (`true`) a position.
+/// The children of each node: a node or, with `true`, a position.
 pub fn hierarchy(keys: &[u32]) -> Vec<[(u32, bool); 2]> {
     let mut nodes = vec![[(0, false); 2]; keys.len().saturating_sub(1)];
-    // The bits by which positions are told apart: their keys', then their own.
+    // The bits that distinguish positions: first their keys', then their own.
     let long = |position: usize| u64::from(keys[position]) << 32 | position as u64;
     let mut open = Vec::new();
     if keys.len() > 1 {

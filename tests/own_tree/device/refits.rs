@@ -1,4 +1,4 @@
-//! Trees whose triangles have moved since they were built.
+//! Trees whose triangles have moved since the build.
 
 use common::scene::Vertex;
 use own_tree::{Child, DeviceTree, Node};

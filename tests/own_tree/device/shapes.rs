@@ -1,8 +1,8 @@
-//! Triangles that are easy or hard to build a tree of.
+//! Triangles for which a tree is easy or hard to build.
 
 use glam::Vec3;
 
-/// Vertices and triangles, and what they are called when a test fails.
+/// Vertices and triangles, and their name in messages.
 #[derive(Clone, Debug)]
 pub struct Shape {
     pub name: String,
@@ -39,7 +39,7 @@ impl Shape {
     }
 }
 
-/// Numbers that look random and are the same each time.
+/// Pseudorandom numbers, the same each time.
 struct Random(u32);
 
 impl Random {
@@ -66,7 +66,7 @@ fn apart(name: &str, corners: impl Iterator<Item = [Vec3; 3]>) -> Shape {
     Shape { name: name.to_owned(), triangles: triangles.collect(), vertices }
 }
 
-/// Small triangles anywhere in a cube.
+/// Small triangles, anywhere in a cube.
 pub fn soup(count: u32, seed: u32) -> Shape {
     let mut random = Random(seed);
     let size = 2.0 / (1.0 + count as f32).cbrt();
@@ -98,7 +98,7 @@ pub fn in_one_place(count: u32) -> Shape {
     Shape { name, vertices, triangles: vec![[0, 1, 2]; count as usize] }
 }
 
-/// Each at half the distance of the one before, in one axis after the other, until floats end.
+/// Each at half the distance of the previous one, along alternating axes, down to the smallest float.
 pub fn halving(count: u32) -> Shape {
     let triangle = |i: u32| {
         let at =
@@ -108,7 +108,7 @@ pub fn halving(count: u32) -> Shape {
     apart("halving", (0..count).map(triangle))
 }
 
-/// Points and lines that lie in a plane.
+/// Points and lines in a plane.
 pub fn flat(count: u32) -> Shape {
     let mut shape = soup(count, 77).stretched(Vec3::new(1.0, 0.0, 1.0));
     for triangle in shape.triangles.iter_mut().step_by(3) {

@@ -1,4 +1,4 @@
-//! The flag's formula once more, in 64 bits: what the compute shader is held to.
+//! The flag's formula in 64 bits, to compare the compute shader with.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,13 @@ use glam::{Affine3A, DVec2, DVec3, Mat3A, Vec2, Vec3, Vec3A};
 pub const POLE: Vec3 = Vec3::new(5.7, -0.34, -5.2);
 const SIZE: DVec2 = DVec2::new(4.2, 2.6);
 
-/// From the cloth's space to the world.
+/// The transform from the cloth's space to the world.
 pub fn place() -> Affine3A {
     let translation = Vec3A::from(POLE + (6.4 - 0.25) * Vec3::Y);
     Affine3A { matrix3: Mat3A::from_rotation_y(2.9), translation }
 }
 
-/// The corners of a cloth of so many cells across at a frame, row by row.
+/// The vertices of a cloth this many cells wide at a frame, row by row.
 pub fn corners(frame: u32, across: u32) -> Vec<DVec3> {
     let down = (2 * across).div_ceil(3);
     let seconds = f64::from(frame) / 60.0;
@@ -38,7 +38,7 @@ pub fn corners(frame: u32, across: u32) -> Vec<DVec3> {
     corners
 }
 
-/// Three corners of each triangle.
+/// The three vertices of each triangle.
 pub fn triangles(across: u32) -> Vec<[u32; 3]> {
     let down = (2 * across).div_ceil(3);
     let corner = |x, y| y * (across + 1) + x;

@@ -1,8 +1,8 @@
-//! Decay of a tree of boxes that is updated and not built: by the surface area heuristic, on the host, so that it
-//! is the same everywhere.
+//! Decay of a tree of boxes that is only updated: measured by the surface area heuristic on the host, so that
+//! the result is the same everywhere.
 //!
-//! The cost of a tree is the sum over its nodes of the part of all rays that meets a node, its area over the
-//! root's (MacDonald and Booth 1990). The tree is the one that the samples' order makes: halves of a list.
+//! The cost of a tree is the sum of the probabilities that a ray hits a node: its area over the root's
+//! (MacDonald and Booth 1990). The tree halves the list in the samples' order.
 
 use common::gpu::order::{Bounds, kd_median};
 use common::model::{Model, obj};
@@ -23,7 +23,7 @@ fn area((low, high): Bounds) -> f64 {
     side.x * side.y + side.y * side.z + side.z * side.x
 }
 
-/// The box of a tree over a list, and the sum of all nodes' areas.
+/// The box of a tree of a list, and the sum of all nodes' areas.
 fn tree(list: &[u32], boxes: &[Bounds]) -> (Bounds, f64) {
     if let [one] = list {
         let leaf = boxes[*one as usize];
@@ -35,13 +35,13 @@ fn tree(list: &[u32], boxes: &[Bounds]) -> (Bounds, f64) {
     (whole, left.1 + right.1 + area(whole))
 }
 
-/// Cost of a tree that was built of some boxes and updated to others.
+/// The cost of a tree built for some boxes and updated to others.
 fn cost(built: &[Bounds], now: &[Bounds]) -> f64 {
     let (root, sum) = tree(&kd_median(built), now);
     sum / area(root)
 }
 
-/// Cost of an updated tree relative to one that is built.
+/// The cost of an updated tree relative to a rebuilt one.
 fn decay(built: &[Bounds], now: &[Bounds]) -> f64 {
     cost(built, now) / cost(now, now)
 }
@@ -67,14 +67,14 @@ fn pieces(frame: u32) -> Vec<Bounds> {
     boxes.collect()
 }
 
-/// 1 plus so many thousandths, as pages print it.
+/// Rounds 1 plus a small number to thousandths, as printed on pages.
 fn rounded(factor: f64) -> f64 {
     (1000.0 * factor).round() / 1000.0
 }
 
 #[test]
 fn a_tree_decays_as_its_boxes_move_apart_and_not_with_the_number_of_updates() {
-    // Built while it waves, then updated: every wave looks like the last.
+    // Built while it waves, then updated: each wave is like the last.
     let waving =
         [1, 8, 15, 30, 60, 240].map(|frames| decay(&triangles(480), &triangles(480 + frames)));
     // Built folded, then updated while it unfolds.

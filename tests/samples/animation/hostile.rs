@@ -1,10 +1,10 @@
-//! A file of legs is not to be trusted: what is wrong with it is one line, with the line's number.
+//! Invalid files of legs: each fault is reported in one line, with the line's number.
 
 use run::refused;
 
 use super::{NAME, legs};
 
-/// Reads such a file: the numbers of pieces and legs, or what is wrong.
+/// Reads such a file: the numbers of pieces and legs, or the message.
 fn read(text: &[u8]) -> Result<(usize, usize), String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("g.legs");

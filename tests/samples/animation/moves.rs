@@ -1,5 +1,5 @@
-//! The game that 14 plays is one by the rules of chess: `chess_game` knows them, and refuses in one line what they
-//! forbid.
+//! The game played by 14 obeys the rules of chess: `chess_game` knows them, and refuses illegal moves with
+//! one line.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use super::{game, opera};
 use common::scene::assets;
 use run::refused;
 
-/// Reads such a file: the number of moves, or what is wrong.
+/// Reads such a file: the number of moves, or the message.
 fn read(text: &[u8]) -> Result<usize, String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("game.txt");
@@ -40,7 +40,7 @@ fn what_the_rules_forbid_is_refused_with_its_line_and_what_they_allow() {
         ("e7-e5", "game.txt:1: the pawn on e7 is Black's, and White is to move"),
         ("a1-a3", "game.txt:1: the rook on a1 cannot go to a3: it has no move here"),
         ("g1-f3\ng8-f6\ne1-g1", "cannot go to g1: it has no move here"),
-        // A pinned knight, and a king in check from a queen.
+        // A pinned piece, and a king in check from a queen.
         (
             "e2-e4\ne7-e5\nb1-c3\nf8-b4\nd2-d3\na7-a6\nc3-d5",
             "game.txt:7: c3-d5 would leave White's king attacked: it has no move here",
@@ -49,9 +49,9 @@ fn what_the_rules_forbid_is_refused_with_its_line_and_what_they_allow() {
             "f2-f3\ne7-e5\ng2-g4\nd8-h4\ne1-f2",
             "game.txt:5: e1-f2 would leave White's king attacked",
         ),
-        // A pawn may be taken in passing at once or never.
+        // A pawn may be captured en passant at once or never.
         ("e2-e4\na7-a6\ne4-e5\nd7-d5\nh2-h3\nh7-h6\ne5-d6", "cannot go to d6: it may go to e6"),
-        // The king passes over f1, which a bishop on a6 sees.
+        // The king passes over f1, which is attacked by a bishop on a6.
         (
             "e2-e4\nb7-b6\ng1-f3\nc8-a6\nf1-a6\nb8-a6\ng2-g3\na6-b8\nd2-d3\nd8-c8\na2-a3\nc8-a6\nh2-h4\na6-d3\ne1-g1",
             "game.txt:15: the king on e1 cannot go to g1",
@@ -104,15 +104,15 @@ fn a_file_that_is_no_game_is_refused_in_one_line() {
     }
 }
 
-/// Nobody edits them by hand.
+/// The file of legs is generated and never edited by hand.
 #[test]
 fn the_legs_are_those_of_the_moves() {
     let output = run::command("chess_game").arg("--check").output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// The frames after each half-move and the board of the rules show the same pieces on the same squares; all others
-/// stand on the table.
+/// After each half-move, the frames show the same pieces on the same squares as the rules' board; all others
+/// are on the table.
 #[test]
 fn after_every_move_each_piece_stands_where_the_rules_say() {
     let (mut position, motion) = (Position::start(), opera());
@@ -148,7 +148,7 @@ fn the_tool_writes_a_game_of_ones_own_and_refuses_what_is_none() {
         |argument: &std::path::Path| run::command("chess_game").arg(argument).output().unwrap();
     assert!(tool(&moves).status.success());
     let legs = super::legs::open(&folder.path().join("mine.legs")).unwrap();
-    // The pawn that takes the rook on a8 is a knight once it has arrived.
+    // The pawn that captures the rook on a8 is a knight after its arrival.
     let kind = |frame| KINDS[legs.at(frame).nth(8).unwrap().kind];
     assert_eq!((kind(48 * 9 + 10 + 33), kind(48 * 9 + 10 + 34)), ("pawn", "knight"));
     assert_eq!(legs.last, 48 * 10 + 192);
@@ -163,7 +163,7 @@ fn the_tool_writes_a_game_of_ones_own_and_refuses_what_is_none() {
     assert!(code == 2 && line.contains("takes moves (.txt), --check, or nothing"), "{line}");
 }
 
-/// The numbers of move sequences that chess programs are checked by (perft): every rule counts.
+/// The numbers of move sequences used to test chess programs (perft), which depend on every rule.
 #[test]
 fn there_are_as_many_ways_to_begin_as_chess_has() {
     fn ways(position: &Position, depth: u32) -> u64 {

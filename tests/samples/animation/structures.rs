@@ -1,4 +1,4 @@
-//! Inputs and results of builds and updates: errors before Vulkan is called, bytes, and times.
+//! Inputs and results of builds and updates: errors detected before Vulkan is called, sizes, and times.
 
 use ash::vk;
 use common::gpu::{
@@ -19,10 +19,10 @@ fn gpu_with(validate: bool) -> Gpu {
     Gpu::new(&GpuOptions { requirements, validate, ..GpuOptions::default() }).unwrap()
 }
 
-/// Tests whether the validation layer is 1.3.275, as Ubuntu 24.04 has it: it ends the process where a structure
-/// that compaction made smaller is updated. Neither 1.3.239 nor 1.4.363 does (`docs/devices.md`).
+/// Returns whether the validation layer is 1.3.275, as in Ubuntu 24.04: it crashes when a compacted structure
+/// is updated. Neither 1.3.239 nor 1.4.363 does (`docs/devices.md`).
 fn layer_crashes_of_compacted(gpu: &Gpu) -> bool {
-    // SAFETY: nothing is asked of the loader but a list.
+    // SAFETY: the call only lists layers.
     let layers = unsafe { gpu.vulkan.entry.enumerate_instance_layer_properties() }.unwrap();
     layers.iter().any(|layer| {
         layer.layer_name_as_c_str() == Ok(c"VK_LAYER_KHRONOS_validation")
@@ -30,7 +30,7 @@ fn layer_crashes_of_compacted(gpu: &Gpu) -> bool {
     })
 }
 
-/// Two triangles, or as many of them as are asked for.
+/// Two triangles, or as many of them as requested.
 struct Square {
     vertices: Buffer,
     indices: Buffer,
@@ -95,7 +95,7 @@ fn what_may_not_be_updated_is_refused_before_vulkan_is_asked() {
     assert_eq!(gpu.validation().all(), Vec::<String>::new());
 }
 
-/// With the very flags of its build, compaction's too.
+/// With exactly the flags of its build, including compaction.
 #[test]
 fn a_structure_that_was_made_smaller_may_be_updated() {
     let mut gpu = gpu();
@@ -113,7 +113,7 @@ fn a_structure_that_was_made_smaller_may_be_updated() {
     assert_eq!(gpu.validation().all(), Vec::<String>::new());
 }
 
-/// Bytes of the chess set's bottom levels: plain, compacted, updatable, both.
+/// The size of the chess set's bottom levels: plain, compacted, updatable, both.
 #[test]
 fn bytes_of_what_moves_and_of_what_does_not() {
     let gpu = gpu();
@@ -161,7 +161,7 @@ fn bytes_of_what_moves_and_of_what_does_not() {
     );
 }
 
-/// Every second frame builds both levels and every other one updates them, within one run.
+/// In one run, every second frame builds both levels and the others update them.
 #[test]
 fn a_build_and_an_update_are_timed_in_turns() {
     let run = |cells: &str| {

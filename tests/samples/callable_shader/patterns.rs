@@ -8,7 +8,7 @@ pub enum Kind {
     Checker,
 }
 
-/// A material's pattern, and cells of its lattice a unit.
+/// A material's pattern, and the cells of its lattice per unit.
 pub fn of(material: &str) -> Option<(Kind, f32)> {
     Some(match material {
         "white" => (Kind::Marble, 4.0),
@@ -21,7 +21,7 @@ pub fn of(material: &str) -> Option<(Kind, f32)> {
     })
 }
 
-/// The weight of the second colour at a place, in cells, moved by `far` cells along x.
+/// The weight of the second colour at a place in cells, moved by `far` cells along x.
 pub fn weight(kind: Kind, place: [f32; 3], far: i32) -> f32 {
     match kind {
         Kind::Marble => marble(place, far),
@@ -49,7 +49,7 @@ fn between(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)
 }
 
-/// The region in which cells have numbers.
+/// Clamps a place to the region whose cells have numbers.
 fn within(place: [f32; 3]) -> [f32; 3] {
     place.map(|x| x.clamp(-1e9, 1e9))
 }

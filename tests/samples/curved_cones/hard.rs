@@ -1,9 +1,9 @@
-//! Surfaces and rays for which a cone has no width, or none that is a number.
+//! Surfaces and rays for which a cone has no width, or one that is not a number.
 
 use super::{FOOTPRINTS, NAME, bent};
 use run::{Chapter, evaluate};
 
-/// Hostile values of a width, a spread, a distance or a curvature; a cosine is from 0 to 1.
+/// Hostile values of a width, a spread, a distance or a curvature; a cosine is between 0 and 1.
 const BAD: &str = "
     const float BAD[12] = float[](0.0, -0.0, 1.0, -1.0, 1e-30, 1e30, -1e30, 3e-39, 1e9, 0.3,
         uintBitsToFloat(0x7fc00000u), uintBitsToFloat(0x7f800000u));
@@ -59,7 +59,7 @@ fn principal_axes_are_perpendicular_and_bound_the_same_area() {
         float area = length(cross(a, vec3(1.0, float(at.y) / 8.0, 0.0)));
         answer = vec4(dot(axes.a, axes.b), length(axes.a) * length(axes.b), area, max(length(axes.a), length(axes.b)));";
     for &[dot, product, area, longer] in &evaluate(&bent(), body, "24x24").pixels {
-        // Square roots and quotients may be off by 3 ULP, all else by a rounding each.
+        // Square roots and quotients may be off by 3 ULP, everything else by one rounding.
         let rounding = 2f32.powi(-19) * longer * longer;
         assert!(
             dot.abs() <= rounding && (product - area).abs() <= rounding,
@@ -68,7 +68,7 @@ fn principal_axes_are_perpendicular_and_bound_the_same_area() {
     }
 }
 
-/// In the focus of a hollow mirror the width is 0, before it and beyond it the same.
+/// At the focus of a concave mirror the width is 0, and it is the same before and beyond it.
 #[test]
 fn a_width_is_the_same_before_a_focus_and_beyond_it() {
     let body = "
@@ -80,7 +80,7 @@ fn a_width_is_the_same_before_a_focus_and_beyond_it() {
     }
 }
 
-/// From within the glass ball, at its rim and into it, and with the eye in the focus of the hollow mirror.
+/// From inside the glass ball, at its rim and into it, and with the eye at the focus of the concave mirror.
 #[test]
 fn every_view_of_the_three_is_of_numbers() {
     views_are_of_numbers(&["curved"]);

@@ -1,5 +1,5 @@
-//! Distance of each way to carry a cone from the mean of 1,024 rays per pixel, in a mirror, in a hollow one and in
-//! glass; its flicker, and its cost.
+//! The difference of each way to carry a cone from the mean of 1,024 rays per pixel, in a mirror, in a
+//! concave one and in glass; its flicker, and its cost.
 
 use common::app::Picture;
 use serde_json::{Map, Value};
@@ -10,13 +10,13 @@ use run::{Chapter, expected, render};
 /// The instances, with the floor at 0.
 const SURFACES: [(&str, f32); 3] = [("mirror", 1.0), ("hollow", 2.0), ("glass", 3.0)];
 const VIEW: &str = "144x90";
-/// Pixels that the camera moves from frame to frame, in each of so many frames: as in 19.
+/// The camera's motion in pixels from frame to frame, as in 19.
 const STEP: f64 = 0.3;
 const FRAMES: usize = 4;
-/// 32 times 32 rays a pixel, each in its own part of it.
+/// 32 by 32 rays per pixel, each in its own part of it.
 const TRUTH: [&str; 2] = ["footprint=point", "rays=32"];
 
-/// The chapter's own view, moved aside by so many pixels, as they are wide at the balls.
+/// The chapter's own view, moved sideways by this many pixels, measured at the balls.
 fn view(slid: f64) -> [String; 2] {
     let pixel = 2.0 * 18f64.to_radians().tan() / 90.0 * 8.5;
     let aside = slid * pixel;
@@ -32,7 +32,7 @@ fn seen(slid: f64, sets: &[&str]) -> Picture {
         .picture()
 }
 
-/// The pixels in which, with their four neighbours, a surface and no other is seen in all frames.
+/// The pixels that, with their four neighbours, show the same surface in all frames.
 fn pixels(surface: f32, frames: &[Picture]) -> Vec<usize> {
     let shows = |i: usize| frames.iter().all(|frame| frame.pixels[i][0] == surface);
     let (width, height) = (144, 90);
@@ -40,7 +40,7 @@ fn pixels(surface: f32, frames: &[Picture]) -> Vec<usize> {
     all.filter(|&i| [i, i - 1, i + 1, i - width, i + width].into_iter().all(shows)).collect()
 }
 
-/// The frames of a move: the colours of textures.
+/// The frames of a move, showing texture colours.
 fn frames(count: usize, sets: &[&str]) -> Vec<Picture> {
     let sets: Vec<&str> = sets.iter().copied().chain(["show=color"]).collect();
     (0..count).map(|i| seen(STEP * i as f64, &sets)).collect()
@@ -56,7 +56,7 @@ fn error(a: &[f64], b: &[f64]) -> f64 {
     (squares.sum::<f64>() / a.len() as f64).sqrt()
 }
 
-/// Error, and flicker: what changes from frame to frame beyond what the truth changes.
+/// The error, and the flicker: the change from frame to frame in excess of the truth's.
 fn judged(found: &[Picture], truth: &[Picture], pixels: &[usize]) -> [f64; 2] {
     let [found, truth] = [found, truth]
         .map(|frames| frames.iter().map(|frame| colors(frame, pixels)).collect::<Vec<_>>());
@@ -67,7 +67,7 @@ fn judged(found: &[Picture], truth: &[Picture], pixels: &[usize]) -> [f64; 2] {
     [error(&found.concat(), &truth.concat()), error(&changes(&found), &changes(&truth))]
 }
 
-/// Of each surface its pixels, and error and flicker of each footprint. Curvature must lessen both.
+/// For each surface its pixels, and the error and flicker of each footprint. Curvature must reduce both.
 fn tables(count: usize, truth: &[&str]) -> Vec<(&'static str, usize, [[f64; 2]; 4])> {
     let truth = frames(count, truth);
     let found = FOOTPRINTS.map(|footprint| frames(count, &[&format!("footprint={footprint}")]));
@@ -105,7 +105,7 @@ fn error_and_flicker_in_each_of_the_three() {
     expected::hold("40_curved_cones/flicker", Value::Object(flicker));
 }
 
-/// Time of a frame relative to that with a point.
+/// The time of a frame relative to that with a point.
 #[test]
 #[ignore = "by hand: takes times"]
 fn time_by_footprint() {

@@ -1,22 +1,23 @@
-//! The cone's width against 64 rays of a pixel, traced by 64-bit floats.
+//! The cone's width compared with 64 rays of a pixel, traced in 64-bit floats.
 //!
-//! Rays from a point, one of them the axis, meet a sphere at distance `before`; at distance `behind` of it lies what
-//! is looked at. There the pixel's rays have a covariance, whose determinant is that of an area: the width is its
-//! root. A mirror makes of a width w and a spread s, with k the curvature, c the cosine and t the distance behind it,
+//! Rays from a point, one of them the axis, hit a sphere at distance `before`, and then a surface at distance
+//! `behind` from it. The pixel's rays there have a covariance, whose determinant is that of an area; the
+//! width is its root. For a width w and a spread s, with curvature k, cosine c and distance t behind the
+//! mirror, a mirror gives
 //!
 //! - within the plane of incidence w + (s + 2kw/c)·t,
 //! - across it w + (s + 2kwc)·t,
 //!
-//! and of the cone w + (s + 2kw)·t. With A = w + st and B = 2kwt, the product of the first two is (A + B)² +
-//! AB·(1/c + c - 2). So the cone is right head-on. Where A and B are positive it is too narrow, but never by more
-//! than a quarter of (1/c + c - 2) of the area, for AB is at most a quarter of (A + B)².
+//! and for the cone w + (s + 2kw)·t. With A = w + st and B = 2kwt, the product of the first two is (A + B)² +
+//! AB·(1/c + c - 2). So the cone is exact head-on. If A and B are positive it is too narrow, but by no more
+//! than a quarter of (1/c + c - 2) of the area, because AB is at most a quarter of (A + B)².
 
 use glam::{DVec2, DVec3};
 use run::evaluate;
 
 use super::bent;
 
-/// By how much the pixel's rays part in a unit of length.
+/// The spread of the pixel's rays per unit of length.
 const SPREAD: f64 = 1.0 / 65536.0;
 const INDEX: f64 = 1.5;
 
@@ -24,7 +25,7 @@ const WIDE: i32 = 28;
 const HIGH: i32 = 160;
 const SIZE: &str = "28x160";
 
-/// The same cases as `Case::of` has.
+/// The same cases as in `Case::of`.
 const CASES: &str = "
     float cosine = 1.0 - float(at.x) / 32.0;
     int row = at.y;
@@ -58,13 +59,13 @@ impl Case {
         ((1.0 - self.cosine) * (1.0 + self.cosine)).sqrt()
     }
 
-    /// The point where the axis meets the surface, and the normal there.
+    /// The point where the axis hits the surface, and the normal there.
     fn middle(&self) -> (DVec3, DVec3) {
         (self.before * DVec3::Z, DVec3::new(self.sine(), 0.0, -self.cosine))
     }
 
-    /// The point where a ray meets the surface, and the normal there. With u the way from the middle, and n its
-    /// normal, the surface is n·u + k/2 u² = 0: a plane if k is 0.
+    /// The point where a ray hits the surface, and the normal there. For an offset u from the middle, whose
+    /// normal is n, the surface is n·u + k/2 u² = 0: a plane if k is 0.
     fn met(&self, origin: DVec3, along: DVec3) -> (DVec3, DVec3) {
         let (middle, normal) = self.middle();
         let from = origin - middle;
@@ -76,7 +77,8 @@ impl Case {
         (at, (normal + self.curvature * (at - middle)).normalize())
     }
 
-    /// Width of 64 rays behind the surface, which `turn` sends on: the root of the area.
+    /// The width of 64 rays behind the surface, where `turn` gives their new directions: the root of the
+    /// area.
     fn width(&self, is_parallel: bool, turn: impl Fn(DVec3, DVec3) -> DVec3) -> f64 {
         let (middle, normal) = self.middle();
         let axis = turn(DVec3::Z, normal);
@@ -101,7 +103,7 @@ impl Case {
         for end in ends.iter().map(|end| *end - mean) {
             (xx, xy, yy) = (xx + end.x * end.x, xy + end.x * end.y, yy + end.y * end.y);
         }
-        // Of the parts themselves: the mean square of (i - 3.5) / 8, 64 times.
+        // For the parts themselves: the mean square of (i - 3.5) / 8, times 64.
         let parts = 64.0 * 5.25 / 64.0;
         ((xx * yy - xy * xy).max(0.0).sqrt() / parts).sqrt()
     }
@@ -117,13 +119,13 @@ impl Case {
         })
     }
 
-    /// The width in the middle of what happens at the surface.
+    /// The width at the surface.
     fn arriving(&self) -> f64 {
         SPREAD * self.before
     }
 
-    /// By how much of itself a width may be off: third-order terms, of the size of the square of the angle by which
-    /// normals turn across the pixel on the slant; and 16 roundings of 32-bit floats.
+    /// The relative error bound of a width: third-order terms, of the size of the squared angle by which
+    /// normals turn across the slanted pixel; and 16 roundings of 32-bit floats.
     fn rounding(&self) -> f64 {
         let turn = self.curvature * self.arriving() / (self.cosine * self.cosine);
         8.0 * turn * turn + 16.0 * 2f64.powi(-24)
@@ -134,7 +136,7 @@ fn after(before: f64, ratio: f64) -> f64 {
     (1.0 - ratio * ratio * (1.0 - before * before)).sqrt()
 }
 
-/// Results of the shader for each case.
+/// The shader's result for each case.
 fn shader(body: &str) -> Vec<(Case, f64)> {
     let picture = evaluate(&bent(), &format!("{CASES}{body}"), SIZE);
     assert_eq!(picture.pixels.len(), (WIDE * HIGH) as usize);
@@ -142,8 +144,8 @@ fn shader(body: &str) -> Vec<(Case, f64)> {
     found.map(|(i, pixel)| (Case::of(i), f64::from(pixel[0]))).collect()
 }
 
-/// Tests whether a cone's width is one that a bulging mirror may have: not wider than the rays, and narrower at
-/// most by the amount derived above.
+/// Returns whether a cone's width is possible for a convex mirror: not wider than the rays, and narrower by
+/// no more than the amount derived above.
 fn is_of_mirror(case: Case, width: f64) -> bool {
     let area = (case.mirrored() / width).powi(2) - 1.0;
     let most = (1.0 / case.cosine + case.cosine - 2.0) / 4.0;
@@ -164,7 +166,7 @@ fn without_curvature_the_cone_is_not_as_wide_as_the_rays() {
     let bulging = found.into_iter().filter(|(case, _)| case.curvature > 0.0);
     let (mut tried, mut least) = (0, f64::INFINITY);
     for (case, width) in bulging {
-        // Head-on the cone of a flat mirror is narrower by B / (A + B), and on the slant by no less.
+        // Head-on, the cone of a flat mirror is narrower by B / (A + B), and at a slant by at least as much.
         let gained = 2.0 * case.curvature * case.arriving() * case.behind;
         if gained > 0.5 * width && case.cosine > 0.5 {
             least = least.min(case.mirrored() / width);
@@ -176,7 +178,7 @@ fn without_curvature_the_cone_is_not_as_wide_as_the_rays() {
     assert!(tried > 300, "{tried}");
 }
 
-/// Before the focus, in it, and behind it, where the width is negative.
+/// Before the focus, at it, and behind it, where the width is negative.
 #[test]
 fn head_on_a_hollow_mirror_s_cone_is_as_wide_as_the_rays_beyond_its_focus_too() {
     let found = shader("answer.x = width_at(after_mirror(cone, before, curvature), behind);");
@@ -195,8 +197,8 @@ const GLASS: &str = "
     float after = sqrt(1.0 - ratio * ratio * (1.0 - cosine) * (1.0 + cosine));
 ";
 
-/// Into glass: the area is too small by a quarter of (q² + 1/q² - 2) of itself at most, with q² = after / before, for
-/// the same reason as behind a mirror.
+/// Into glass: the area is too small by no more than a quarter of (q² + 1/q² - 2) of itself, with q² = after
+/// / before, for the same reason as behind a mirror.
 #[test]
 fn behind_flat_glass_the_cone_is_as_wide_as_the_rays() {
     let body = "answer.x = width_at(after_glass(cone, before, 0.0, cosine, after, ratio), behind);";
@@ -228,7 +230,7 @@ fn head_on_the_cone_into_a_lens_and_out_of_it_is_as_wide_as_the_rays() {
     }
 }
 
-/// Parallel rays, on the slant: far behind the surface only the spread that it gave them counts.
+/// Parallel rays at a slant: far behind the surface, only the spread it gave them matters.
 #[test]
 fn a_lens_spreads_slanting_rays_by_the_root_of_what_it_does_along_and_across() {
     let body = "Cone parallel = Cone(before * cone.spread, 0.0);
@@ -236,13 +238,13 @@ fn a_lens_spreads_slanting_rays_by_the_root_of_what_it_does_along_and_across() {
         answer.x = width_at(parallel, 1048576.0) / 1048576.0;";
     let ratio = 1.0 / INDEX;
     for (case, spread) in shader(&format!("float ratio = 1.0 / {INDEX:?};{GLASS}{body}")) {
-        // A ray that begins at the far side of a hollow sphere, or beyond it, meets that first.
+        // A ray that starts at the far side of a concave sphere, or beyond it, hits that side first.
         if 2.0 * case.cosine + case.curvature * case.before < 0.1 {
             continue;
         }
         let far = Case { behind: 1_048_576.0, ..case };
         let rays = far.refracted(true, ratio) / far.behind;
-        // The widths themselves, beside what they become: at most 1 / (0.3·k·2^20) of it, along and across.
+        // The widths at the surface, relative to those behind it: at most 1 / (0.3·k·2^20), along and across.
         let near = 2.0 / (0.3 * case.curvature.abs() * far.behind);
         let off = (spread.abs() / rays - 1.0).abs();
         assert!(off <= near / case.cosine + 4.0 * case.rounding(), "{case:?}: {spread:e} {rays:e}");

@@ -1,4 +1,5 @@
-//! Starts of rays on the lens: the points of the definitions, evenly spread, and independent of the pixel's.
+//! The starts of rays on the lens: they match the definitions, are evenly spread, and independent of the
+//! pixel's points.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,11 +10,11 @@ use super::points::{hash, mirrored, owen, sobol_second};
 use super::{AT_ORIGIN, SIZE, SMALL, chapter};
 use run::expected;
 
-/// Purpose of a random number, as in `shaders/common/random.glsl` and `sample_point.glsl`.
+/// The purpose of a random number, as in `shaders/common/random.glsl` and `sample_point.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 pub const DIMENSION_LENS: u32 = 5;
 
-/// The numbers of a sample, of 24 bits each; `ordered` takes the points in the sequence's own order.
+/// The numbers of a sample, of 24 bits each; `ordered` uses the points in the sequence's own order.
 pub fn numbers(pixel: [u32; 2], seed: u32, i: u32, dimension: u32, ordered: bool) -> [f64; 2] {
     let key = hash([pixel[0], pixel[1], seed, dimension]);
     let i = if ordered { i } else { owen(i, key[2]) };
@@ -37,7 +38,7 @@ pub fn on_disk([u, v]: [f64; 2]) -> DVec2 {
     radius * DVec2::from_angle(angle)
 }
 
-/// A point of a regular polygon with corners on the unit circle, the first of them to the right.
+/// A point of a regular polygon with corners on the unit circle, the first of them on the right.
 pub fn in_polygon(corners: u32, [u, v]: [f64; 2]) -> DVec2 {
     let place = u * f64::from(corners);
     let corner = |k: f64| DVec2::from_angle(TAU * k / f64::from(corners));
@@ -45,7 +46,7 @@ pub fn in_polygon(corners: u32, [u, v]: [f64; 2]) -> DVec2 {
     v.sqrt() * from.lerp(to, place.fract())
 }
 
-/// The place on a lens of radius 1 at which each pixel's ray of a frame starts.
+/// The point on a lens of radius 1 at which each pixel's ray of a frame starts.
 fn places(size: &str, frame: u32, blades: u32, more: &[&str]) -> Vec<DVec2> {
     let blades = format!("blades={blades}");
     let sets = [&AT_ORIGIN[..], &["show=ray origin", "lens diameter=2", &blades], more].concat();
@@ -61,14 +62,14 @@ fn rays_start_where_the_definitions_say() {
             let pixel = [i as u32 % 64, i as u32 / 64];
             let u = numbers(pixel, 7, frame, DIMENSION_LENS, false);
             let place = if blades < 3 { on_disk(u) } else { in_polygon(blades, u) };
-            // Sines and cosines of llvmpipe are off by an ULP; a handful of roundings come to that.
+            // llvmpipe's sines and cosines are off by a ULP; that amounts to a handful of roundings.
             let off = (found - place).length();
             assert!(off < 0.5f64.powi(20), "{blades} blades, {pixel:?}: {found} and {place}");
         }
     }
 }
 
-/// Of numbers that should be uniform from 0 to 1, the largest distance to that.
+/// The largest deviation of numbers from a uniform distribution on 0 to 1.
 fn unevenness(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut numbers: Vec<f64> = numbers.collect();
     numbers.sort_by(f64::total_cmp);
@@ -82,10 +83,11 @@ fn places_are_uniform_over_the_aperture_and_fill_it() {
     for blades in [0, 2, 3, 5, 6, 12] {
         let places = places(SIZE, 0, blades, &[]);
         let count = places.len() as f64;
-        // Kolmogorov and Smirnov: of uniform sets one in a thousand is farther off.
+        // Kolmogorov and Smirnov: one uniform set in a thousand deviates more.
         let bound = 1.95 / count.sqrt();
         let tau = |place: &DVec2| place.to_angle().rem_euclid(TAU) / TAU;
-        // How far out, as the part of the area that lies further in; and where on the way around.
+        // The distance from the middle, as the fraction of the area further in, and the fraction of the way
+        // around.
         let (out, around, moment): (Vec<f64>, Vec<f64>, f64) = if blades < 3 {
             (
                 places.iter().map(|p| p.length_squared()).collect(),
@@ -101,7 +103,7 @@ fn places_are_uniform_over_the_aperture_and_fill_it() {
                 let along = place.dot(middle.perp()) / (place.dot(middle) * half.tan());
                 ((place.dot(middle) / half.cos()).powi(2), (k + 0.5 + 0.5 * along) / n)
             };
-            // Of a triangle between 0, a and b, the mean of p² is (a² + b² + a·b) / 6.
+            // For a triangle of 0, a and b, the mean of p² is (a² + b² + a·b) / 6.
             let moment = (2.0 + (TAU / n).cos()) / 6.0;
             let (out, around) = places.iter().map(side).unzip();
             (out, around, moment)
@@ -131,7 +133,8 @@ fn blades_turn() {
     assert!(most < 0.5f64.powi(20), "{most}");
 }
 
-/// Number of the 16 pairs, a quarter of the pixel and a quarter of the lens, that 64 samples of a pixel have.
+/// The number of the 16 pairs, of a quarter of the pixel and a quarter of the lens, that occur in 64 samples
+/// of a pixel.
 fn pairs(pixel: [u32; 2], ordered: bool) -> u32 {
     let quarter = |[u, v]: [f64; 2]| 2 * u32::from(u >= 0.5) + u32::from(v >= 0.5);
     let mut seen = 0u32;
@@ -151,7 +154,7 @@ fn every_part_of_a_pixel_sees_through_every_part_of_the_lens() {
     };
     let (shared, own) = (mean(true), mean(false));
     println!("of 16 pairs, {shared} with one order for both, {own} with one each");
-    // 64 pairs by chance miss a given one of 16 with 1.6 %.
+    // 64 random pairs miss a given one of 16 with a probability of 1.6 %.
     assert_eq!(shared, 4.0);
     assert!(own > 15.0, "{own}");
     expected::hold_exact("28_depth_of_field/pairs", json!({ "shared": shared, "own": own }));

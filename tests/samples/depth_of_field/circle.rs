@@ -1,4 +1,4 @@
-//! Spread of a small light that is not in focus, against the formula; and that one in focus is not spread.
+//! The spread of a small light out of focus, compared with the formula; one in focus is not spread.
 
 use std::fmt::Write;
 use std::fs;
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 use super::{NAME, chapter};
 use run::{command, expected};
 
-/// Radiance of the light: that of the sky behind it is a millionth.
+/// The radiance of the light: that of the sky behind it is a millionth.
 const RADIANCE: f64 = 1e6;
 /// The field of view, in degrees, and the picture's size.
 const VIEW: f64 = 10.0;
@@ -18,12 +18,12 @@ const SIZE: [u32; 2] = [280, 56];
 /// The distance of the plane in focus.
 const FOCUS: f64 = 5.0;
 
-/// Number of pixels at distance 1, in a length of 1.
+/// The number of pixels in a length of 1 at distance 1.
 fn pixels() -> f64 {
     f64::from(SIZE[1]) / 2.0 / (VIEW.to_radians() / 2.0).tan()
 }
 
-/// A square that shines, seen along -z from `eye`.
+/// A luminous square, seen along -z from `eye`.
 #[derive(Clone, Copy)]
 pub struct Lamp {
     /// Position in the picture, in pixels to the right of the middle.
@@ -34,14 +34,14 @@ pub struct Lamp {
     pub side: f64,
 }
 
-/// Lamps as a model, and what shows them.
+/// Lamps as a model, and the settings that show them.
 pub struct Lamps {
     folder: TempDir,
     eye: [f64; 3],
 }
 
 impl Lamps {
-    /// A model of these lamps before an eye.
+    /// A model of these lamps in front of an eye.
     pub fn new(lamps: &[Lamp], eye: [f64; 3]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut text = "mtllib lamps.mtl\nusemtl lamp\n".to_owned();
@@ -55,7 +55,7 @@ impl Lamps {
             text += "f -4 -3 -2 -1\n";
         }
         if eye != [0.0; 3] {
-            // Out of sight. Without it, the model would be moved to the origin.
+            // An invisible triangle. Without it, the model would be moved to the origin.
             text += "usemtl dark\nv 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n";
         }
         let material = format!(
@@ -67,7 +67,7 @@ impl Lamps {
         Self { folder, eye }
     }
 
-    /// The part of each pixel's samples that has met a lamp.
+    /// The fraction of each pixel's samples that hit a lamp.
     pub fn shown(&self, frames: u32, sets: &[&str]) -> Vec<f64> {
         let model = self.folder.path().join("lamps.obj");
         let [x, y, z] = self.eye;
@@ -83,7 +83,7 @@ impl Lamps {
     }
 }
 
-/// The light of a part of a picture: how much in all, and the mean squared distance to a place.
+/// The light in a part of a picture: the total, and the mean squared distance from a place.
 struct Spread {
     light: f64,
     square: f64,
@@ -125,24 +125,24 @@ fn a_light_is_spread_over_the_circle_of_confusion() {
         .collect();
     let scene = Lamps::new(&lamps, [0.0; 3]);
     let shown = scene.shown(FRAMES, &[&format!("lens diameter={DIAMETER}"), "blades=0"]);
-    // What spreads a light that is in focus: its own size, and the pixels' filter, twice the variance of a
-    // square of side 1.
+    // The spread of a light in focus: its own size, and the pixels' filter, twice the variance of a square of
+    // side 1.
     let sharp = 2.0 * (SIDE * SIDE / 12.0 + 1.0 / 6.0);
     let mut table = Map::new();
     for Lamp { at, depth, .. } in lamps {
         let expected = formula(DIAMETER, depth);
         let Spread { light, square } = spread(&shown, at, 22.0);
-        // Of all rays through the picture as many meet the lamp as it has pixels, blurred or not.
+        // Blurred or not, as many rays hit the lamp as it has pixels.
         assert!((light / (SIDE * SIDE) - 1.0).abs() < 0.03, "{depth}: light of {light} pixels");
         // On a disk the mean square of the radius is half of the largest.
         let found = (8.0 * (square - sharp)).max(0.0).sqrt();
         println!("a light at {depth}: {expected:.2} pixels by the formula, {found:.2} found");
         table.insert(format!("{depth}.formula"), expected.into());
         table.insert(format!("{depth}.found"), found.into());
-        // By chance the mean of n squares, here independent, is off by 0.6 of it over the root of n.
+        // The random error of the mean of n squares, independent here, is 0.6 of it over the root of n.
         let chance = 4.0 * 0.6 * square / (SIDE * SIDE * f64::from(FRAMES)).sqrt();
         assert!((square - sharp - expected * expected / 8.0).abs() < chance, "{depth}: {square}");
-        // Nothing lies outside of the circle, but for what the lamp and the filter add.
+        // Nothing is outside of the circle, except for the size of the lamp and of the filter.
         let beyond = expected / 2.0 + SIDE / 2f64.sqrt() + 2f64.sqrt();
         let all = spread(&shown, at, beyond + 1.0).light;
         assert_eq!(all, light, "{depth}: light beyond {beyond} pixels");
@@ -155,18 +155,18 @@ fn what_is_in_focus_stays_sharp_with_any_lens() {
     let lamps = Lamps::new(&[Lamp { at: 3.3, depth: FOCUS, side: 5.0 }], [0.0; 3]);
     let [pinhole, lens] =
         ["lens diameter=0", "lens diameter=4"].map(|diameter| lamps.shown(64, &[diameter]));
-    // The same rays through the plane in focus, but for those that pass an edge by less than rounding.
+    // The same rays cross the plane in focus, except for those that pass an edge within rounding.
     let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-3;
     let differ = pinhole.iter().zip(&lens).filter(|(a, b)| differ((a, b))).count();
     assert!(differ <= 2, "{differ} pixels differ");
     assert!(spread(&pinhole, 3.3, 20.0).light > 24.0, "no lamp");
-    // A lens as large as this blurs everything out of focus by hundreds of pixels.
+    // A lens this large blurs everything out of focus by hundreds of pixels.
     let behind = Lamps::new(&[Lamp { at: 3.3, depth: 2.0 * FOCUS, side: 5.0 }], [0.0; 3]);
     let brightest = behind.shown(64, &["lens diameter=4"]).into_iter().fold(0.0, f64::max);
     assert!(brightest < 0.2, "{brightest}");
 }
 
-/// The lens that the chapter begins with, if a square of the board is 55 mm wide and the film 24 mm high.
+/// The chapter's default lens, if a square of the board is 55 mm wide and the film 24 mm high.
 #[test]
 fn a_photographer_has_the_same_circle() {
     let listed = command(NAME).arg("--list-controls").output().expect("the sample starts").stdout;
@@ -179,7 +179,7 @@ fn a_photographer_has_the_same_circle() {
     let [square, film] = [55.0, 24.0];
     let [diameter, focus] = ["lens diameter", "focus distance"].map(|name| square * control(name));
     let half_view = (control("field of view").to_radians() / 2.0).tan();
-    // Rays from a point in focus meet at the film, which the field of view places.
+    // Rays from a point in focus meet at the film, whose place follows from the field of view.
     let behind = film / 2.0 / half_view;
     let focal_length = 1.0 / (1.0 / behind + 1.0 / focus);
     for depth in [0.3, 0.9, 1.0, 1.7, 40.0].map(|part| part * focus) {
@@ -196,15 +196,15 @@ fn a_photographer_has_the_same_circle() {
     );
 }
 
-/// Neighbouring floats are 1/16 apart where the eye is, and the lamp in focus is as wide: its corners are
-/// floats, and four pixels of the picture apart.
+/// Neighbouring floats are 1/16 apart at the eye, and the lamp in focus is as wide: its corners are floats,
+/// four pixels of the picture apart.
 #[test]
 fn far_from_the_origin_it_stays_sharp_on_one_rung() {
     let lamps = Lamps::new(&[Lamp { at: 2.0, depth: FOCUS, side: 4.0 }], [1e6, 0.0, 0.0]);
     let pinhole = lamps.shown(64, &["lens diameter=0"]);
     let light: f64 = pinhole.iter().sum();
     assert!((light - 16.0).abs() < 1.0, "a lamp of {light} pixels");
-    // The part of the light that is elsewhere.
+    // The fraction of the light outside of the lamp.
     let astray = |rung: &str| {
         let shown = lamps.shown(64, &["lens diameter=0.5", rung]);
         let differences = shown.iter().zip(&pinhole).map(|(a, b)| (a - b).abs());
@@ -216,7 +216,7 @@ fn far_from_the_origin_it_stays_sharp_on_one_rung() {
     assert!(world > 0.1 && eye > 0.1, "{world} and {eye}");
 }
 
-/// Unevenness of a blurred light's disk after some samples.
+/// The unevenness of a blurred light's disk after some samples.
 #[test]
 #[ignore = "nightly: 1,024 samples a pixel; quick: depth_of_field::aperture::places_are_uniform_over_the_aperture_and_fill_it"]
 fn samples_against_the_noise_of_a_blurred_light() {
@@ -224,7 +224,7 @@ fn samples_against_the_noise_of_a_blurred_light() {
     let lamp = Lamp { at: 0.0, depth: 15.0, side: 4.0 };
     let scene = Lamps::new(&[lamp], [0.0; 3]);
     let circle = formula(DIAMETER, lamp.depth);
-    // The part of the lens through which a place in the disk sees the lamp.
+    // The fraction of the lens through which a point of the disk sees the lamp.
     let part = lamp.side * lamp.side / (std::f64::consts::PI / 4.0 * circle * circle);
     let mut table = Map::new();
     println!("| samples | found | independent |");

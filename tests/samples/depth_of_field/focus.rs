@@ -1,4 +1,4 @@
-//! Crossing of rays: each passes by its point in focus, however far that is, and however far the camera.
+//! The crossing of rays: each passes through its point in focus, however far that point or the camera is.
 
 use common::app::Picture;
 use common::scene::Camera;
@@ -8,12 +8,12 @@ use serde_json::Map;
 use super::{SMALL, chapter};
 use run::{bits, expected};
 
-/// Half the width of a picture 600 pixels high, over that of one pixel, at distance 1.
+/// Half the width of a picture 600 pixels high over that of one pixel, at distance 1.
 fn pixels(camera: &Camera) -> f64 {
     300.0 / (camera.fov_y.to_radians() / 2.0).tan()
 }
 
-/// A camera that looks at a point 5 units away, and the settings that say so.
+/// A camera that looks at a point 5 units away, and the corresponding settings.
 fn camera(distance: f64) -> (Camera, [String; 3]) {
     let eye = distance * DVec3::new(0.6, 0.48, 0.64);
     let target = eye + DVec3::new(-4.0, 0.0, -3.0);
@@ -43,7 +43,7 @@ fn rays(sets: &[&str]) -> [Picture; 2] {
         .map(|show| chapter(SMALL).frames(2).sets(sets).sets(&[show]).picture())
 }
 
-/// Greatest distance of a ray from its point in focus, in pixels of a picture 600 high.
+/// The largest distance of a ray from its point in focus, in pixels of a picture 600 high.
 fn off(distance: f64, focus: &str, rung: &str) -> f64 {
     let (camera, sets) = camera(distance);
     let [focus_set, rung] = [format!("focus distance={focus}"), format!("rung={rung}")];
@@ -52,7 +52,7 @@ fn off(distance: f64, focus: &str, rung: &str) -> f64 {
         let [origins, directions] = rays(&[sets, &[diameter]].concat());
         crossings(&camera, focus.parse().expect("a number"), &origins, &directions)
     };
-    // The ray through the middle of the lens is that of a pinhole: it says where the point in focus is.
+    // The ray through the middle of the lens equals a pinhole's, and gives the point in focus.
     let points = through("lens diameter=0", &[&sets[..4], &["rung=start"]].concat());
     let found = through("lens diameter=0.3", &sets);
     let off = points.iter().zip(&found).map(|(point, found)| (*point - *found).length());
@@ -72,8 +72,8 @@ fn each_ray_passes_by_its_point_in_focus() {
         for (rung, value) in [("world", world), ("eye", eye), ("start", start)] {
             table.insert(format!("{distance},-{focus}.{rung}"), value.into());
         }
-        // The direction is rounded after each of a handful of operations, to 2^-24 of itself; the picture
-        // has 1120 pixels at distance 1, and its edge is half as far again.
+        // The direction is rounded after each of a handful of operations, to 2^-24 of itself; the picture has
+        // 1120 pixels at distance 1, and its edge is one and a half times as far away.
         assert!(
             start < 1120.0 * 1.5 * 8.0 * 0.5f64.powi(24),
             "{distance}, {focus}: {start} pixels"
@@ -89,7 +89,7 @@ fn each_ray_passes_by_its_point_in_focus() {
 fn focused_at_infinity_the_rays_of_a_place_are_parallel() {
     let direction = |diameter| {
         let sets = ["focus distance=inf", "show=ray direction", diameter];
-        // The fourth is the distance of what the ray hits.
+        // The fourth component is the distance of the hit.
         bits(&chapter(SMALL).frames(2).sets(&sets).picture())
             .into_iter()
             .map(|[x, y, z, _]| [x, y, z])

@@ -1,4 +1,4 @@
-//! Error of the mean of many frames, and the gain of further frames with a lens and without.
+//! The error of the mean of many frames, and the benefit of further frames with a lens and without.
 
 use common::app::Picture;
 use serde_json::Map;
@@ -6,7 +6,7 @@ use serde_json::Map;
 use super::{NAME, chapter};
 use run::{expected, render, shaders_with};
 
-/// Small: there are many frames.
+/// Small, because there are many frames.
 const SIZE: &str = "40x25";
 
 /// The root of the mean squared difference, over all pixels and colours.
@@ -16,7 +16,7 @@ fn error(a: &Picture, b: &Picture) -> f64 {
     (squares.sum::<f64>() / (3 * a.pixels.len()) as f64).sqrt()
 }
 
-/// The relative errors of a mean against the exact one: their mean, which is the bias, and the largest.
+/// The relative errors of a mean compared with the exact one: their mean, which is the bias, and the largest.
 fn off(mean: &Picture, exact: &Picture) -> [f64; 2] {
     let pairs = mean.pixels.iter().zip(&exact.pixels);
     let errors = pairs.flat_map(|(mean, exact)| {
@@ -32,7 +32,7 @@ fn off(mean: &Picture, exact: &Picture) -> [f64; 2] {
 fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
     const FRAMES: u32 = 4096;
     let size = "24x15";
-    // Each sample is added as a whole number, and the mean is rounded once.
+    // Each sample is added as an integer, and the mean is rounded once.
     let exact = render(NAME, size, &["--samples", &format!("0..{FRAMES}")]).picture;
     let mean = chapter(size).frames(FRAMES).picture();
     let sums = shaders_with(
@@ -49,7 +49,7 @@ fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
         table.insert(format!("{name}.most"), most.into());
     }
     let [sum, mean] = [&sum, &mean].map(|picture| off(picture, &exact)[1]);
-    // Chapter 04: the mean of n frames is off by n roundings at most.
+    // Chapter 04: the mean of n frames is off by at most n roundings.
     assert!(mean < f64::from(FRAMES) * 0.5f64.powi(24), "{mean}");
     assert!(mean < sum, "a sum of floats has {sum}, the mean {mean}");
     expected::hold("28_depth_of_field/sums", table.into());
@@ -63,7 +63,7 @@ fn samples_buy_less_where_the_lens_blurs() {
     let mut slopes = Vec::new();
     for (name, lens) in [("pinhole", "lens diameter=0"), ("lens", "lens diameter=0.6")] {
         let reference = chapter(SIZE).frames(2048).sets(&[lens, "seed=1"]).picture();
-        // Of four seeds: in a picture this small, the error of one sample is that of a few lamps.
+        // The mean over four seeds: in a picture this small, the error of one sample depends on a few lamps.
         let errors = COUNTS.map(|frames| {
             let square = |seed: &str| {
                 error(&chapter(SIZE).frames(frames).sets(&[lens, seed]).picture(), &reference)
@@ -80,7 +80,8 @@ fn samples_buy_less_where_the_lens_blurs() {
         table.insert(format!("{name}.slope"), slope.into());
         slopes.push(slope);
     }
-    // An edge leaves -3/4 of evenly placed points (04). Small lamps far out of focus are met by chance.
+    // At an edge, the error falls with an exponent of -3/4 for evenly placed points (04). Small lamps far out
+    // of focus are hit at random.
     assert!(slopes[0] < -0.65, "a pinhole: {}", slopes[0]);
     assert!((-0.65..-0.45).contains(&slopes[1]), "a lens: {}", slopes[1]);
     expected::hold("28_depth_of_field/errors", table.into());

@@ -1,4 +1,4 @@
-//! Errors of t, and the rays whose hit or miss is wrong.
+//! The errors of t, and the rays whose hit or miss is wrong.
 
 use reference::ulp::ulp_error;
 
@@ -22,7 +22,7 @@ impl Errors {
         }
     }
 
-    /// The error that so large a part of the hits stay below.
+    /// The error below which this fraction of the hits stays.
     pub fn at(&self, part: f64) -> f64 {
         let mut sorted = self.ulp.clone();
         sorted.sort_by(f64::total_cmp);
@@ -30,7 +30,7 @@ impl Errors {
         sorted.get(place).or(sorted.last()).copied().unwrap_or(0.0)
     }
 
-    /// The figures of a row of the page's table; rays are counted as parts of all.
+    /// The figures of a row of the page's table; rays are counted as fractions of all.
     pub fn values(&self) -> [(&'static str, f64); 5] {
         let part = |count: usize| count as f64 / self.rays as f64;
         let [p50, p99, max] = [0.5, 0.99, 1.0].map(|part| self.at(part));

@@ -64,8 +64,8 @@ fn errors_at_every_distance() {
     }
 }
 
-/// Grey for a miss that is right, from dark blue (half a ULP) through violet and orange to white (a
-/// million), red for a false hit, green for a false miss.
+/// Grey for a correct miss; from dark blue (half a ULP) through violet and orange to white (a million); red
+/// for a false hit, green for a false miss.
 fn error_color(one: &Errors) -> [f32; 4] {
     const RAMP: [[f32; 3]; 5] = [
         [0.01, 0.02, 0.10],

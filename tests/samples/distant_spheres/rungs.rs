@@ -1,4 +1,4 @@
-//! Benefit of each rung and of the margin.
+//! The benefit of each rung and of the margin.
 
 use common::scene::Camera;
 use glam::DVec3;
@@ -14,7 +14,7 @@ use common::app::Picture;
 use run::primary_hits::{answer, rays};
 use run::{expected, render};
 
-/// The rays and t of a picture that shows ray directions: t below 0 is a miss.
+/// The rays and t of a picture of ray directions: t below 0 is a miss.
 pub fn with_t(camera: &Camera, picture: &Picture) -> Vec<(Ray, Option<f32>)> {
     let t = picture.pixels.iter().map(|pixel| (pixel[3] >= 0.0).then_some(pixel[3]));
     rays(camera, picture).zip(t).collect()
@@ -22,7 +22,7 @@ pub fn with_t(camera: &Camera, picture: &Picture) -> Vec<(Ray, Option<f32>)> {
 
 pub const RUNGS: [&str; 4] = ["textbook", "projection", "stable", "host c"];
 
-/// The errors of a rung on the lone sphere, from `distance` radii above its surface.
+/// The errors of a rung on the single sphere, from `distance` radii above its surface.
 fn lone_sphere(rung: &str, distance: f32) -> Errors {
     let sets = [
         "scene=one sphere",
@@ -59,7 +59,7 @@ fn each_rung_keeps_its_bar_at_every_distance() {
     for (rung, distance, p99, bar) in rows {
         assert!(p99 <= bar, "{rung} at {distance}: {p99} ULP (p99)");
     }
-    // What the stable rungs are for.
+    // The purpose of the stable rungs.
     let far = lone_sphere("textbook", 1e4);
     println!("| textbook | 10000 | {} |", far.row());
     assert!(far.at(0.99) > 1000.0 || far.false_misses > 100, "{}", far.row());
@@ -77,7 +77,7 @@ fn the_hosts_c_keeps_a_planet() {
         let directions = chapter(SIZE).sets(&sets).sets(&["show=ray direction"]).picture();
         let mut errors = Errors::default();
         for (ray, pixel) in rays(&camera, &directions).zip(&hits.pixels) {
-            // The planet is sphere 0; what stands on it hides some of it.
+            // The planet is sphere 0; the objects on it hide some of it.
             if let Some(hit) =
                 answer(pixel).filter(|hit| (hit.instance, hit.primitive) == (exact.first, 0))
             {
@@ -110,7 +110,7 @@ fn each_rung_hits_the_far_side_from_inside() {
             assert!(error <= 8.0, "{rung}: {error} ULP on {ray:?}");
         }
     }
-    // A grid of eight: the box at (0.5, -0.5, -0.5), seen from within.
+    // A grid of eight: the box at (0.5, -0.5, -0.5), seen from inside.
     let exact = reference(SceneKind::Grid, 8);
     let aabb =
         exact.boxes.iter().position(|b| b.contains_exact(&DVec3::new(0.5, -0.5, -0.5).into()));
@@ -127,7 +127,7 @@ fn each_rung_hits_the_far_side_from_inside() {
     }
 }
 
-/// The middle column of an odd picture: rays within the plane of a wall.
+/// The middle column of a picture of odd width: rays within the plane of a wall.
 #[test]
 fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
     const WALL: f64 = 0.5 + 0.28125;
@@ -147,7 +147,7 @@ fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
         let column = rays(&camera, &directions).zip(&found.pixels).skip(15).step_by(31);
         for (ray, pixel) in column {
             assert_eq!(ray.origin.x, WALL);
-            // A device may round the camera's axes so that a ray leaves the wall by the last digit.
+            // A device may round the camera's axes so that a ray leaves the wall in the last digit.
             if ray.direction.x != 0.0 && !run::device::is_software() {
                 continue;
             }
@@ -166,8 +166,8 @@ fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
     assert!(reciprocal <= division, "{reciprocal} {division}");
     assert!(2 * division >= along, "{division} of {along}");
     assert!(division > 30 || !run::device::is_software(), "{division}");
-    // GLSL does not say what `min` makes of what is not a number: Mesa 25.0.7 loses the hits by it, and 26.2.6
-    // happens to find them.
+    // GLSL leaves the result of `min` for a NaN undefined: Mesa 25.0.7 loses the hits because of it, and
+    // 26.2.6 happens to find them.
     if expected::are_of_this_driver("42_distant_spheres/walls") {
         assert!(reciprocal < division / 2, "{reciprocal} {division}");
     }
@@ -191,7 +191,7 @@ fn the_margin_offers_every_hit() {
         (hits, never)
     };
     assert_eq!(count("margin=on").1, 0);
-    // What llvmpipe does without; a device that widens boxes by itself may do better.
+    // The result of llvmpipe without the margin; a device that enlarges boxes itself may do better.
     let (hits, never) = count("margin=off");
     expected::hold("42_distant_spheres/margin", json!({ "hits": hits, "never": never }));
     let device = render(NAME, "8x5", &[]).report["device"].as_str().unwrap().to_owned();

@@ -1,4 +1,5 @@
-//! The reason why a path of the furnace is lost in a closed piece: the ray that took it there, by exact arithmetic.
+//! The reason why a path of the furnace is lost in a closed piece: the ray that took it there, in exact
+//! arithmetic.
 
 use reference::Ray;
 use run::primary_hits::reference;
@@ -24,10 +25,10 @@ const SIZE: &str = "96x60";
 const FRAMES: u32 = 16;
 const SETS: [&str; 3] = ["scene=furnace", "depth=256", "estimator=BSDF"];
 
-/// Of each pixel's caught path, the first ray that met a body from behind: where it started, and its length; and
-/// its direction. All is 0 where no path had all the rays that the depth allows.
+/// For each pixel's caught path, the first ray that hit a body from behind: its start and length, and its
+/// direction. All are 0 if no path had as many rays as the depth allows.
 ///
-/// Instances from `open` on are single sheets, which have no inside.
+/// Instances from `open` on are single sheets without an inside.
 fn entries(open: usize) -> [Vec<[f32; 4]>; 2] {
     let folder = copy_of_shaders();
     let change = |file: &str, changes: &[(&str, &str)]| {
@@ -67,9 +68,10 @@ fn entries(open: usize) -> [Vec<[f32; 4]>; 2] {
     [origins, shown()]
 }
 
-/// A ray starts above the surface that it leaves, but that says nothing of another body. Where a piece touches
-/// the board, the start may lie within the other of the two, by less than a hundred thousandth; from there
-/// exact arithmetic finds what the driver finds, a wall from within. So no ray passed between two triangles.
+/// A ray starts above the surface it leaves, but not necessarily outside of other bodies. Where a piece
+/// touches the board, the start may be inside the other of the two, by less than a hundred thousandth; from
+/// there exact arithmetic finds the same hit as the driver, a wall from inside. So no ray passed between two
+/// triangles.
 #[test]
 #[ignore = "nightly: 16 samples a pixel, three times; quick: emitters::closed_forms::a_furnace_is_white_whoever_finds_its_light"]
 fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
@@ -82,7 +84,7 @@ fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
     let pixels = chapter(SIZE).frames(FRAMES).sets(&SETS).picture().pixels;
     for (i, pixel) in pixels.iter().enumerate() {
         let [x, y, z, t] = origins[i];
-        // What a path brings is 1, whatever way it takes, or it is caught and brings nothing.
+        // Every path brings 1, whatever way it takes, unless it is caught and brings nothing.
         let lost = FRAMES as f32 * (1.0 - pixel[0]);
         assert_eq!(lost, if t > 0.0 { 1.0 } else { 0.0 }, "{pixel:?}");
         if t == 0.0 {
@@ -101,7 +103,7 @@ fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
         println!("  it starts {:.1e} behind a wall", -passed.hit.t);
         assert!(passed.hit.t > -1e-5, "{passed:?}");
     }
-    // Set by llvmpipe; with seeds 1 to 7 it is none.
+    // Set by llvmpipe; with seeds 1 to 7 there is none.
     assert!(caught <= 4.0, "{caught} paths are caught");
     let paths = FRAMES as usize * pixels.len();
     expected::hold("29_emitters/furnace", json!({ "caught": caught, "paths": paths }));

@@ -1,5 +1,5 @@
-//! The worth of the two decisions of a shadow ray: which emitter it goes to, and how its light is weighed against that
-//! of the path's own rays.
+//! The benefit of the two decisions about a shadow ray: which emitter it goes to, and how its light is
+//! weighted against that of the path's own rays.
 
 use serde_json::Map;
 
@@ -8,8 +8,8 @@ use super::{ESTIMATORS, brightness, chapter, estimator};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
 use run::expected;
 
-/// A square that shines touches one that does not. Near the edge a path's own rays find it, and far away shadow rays do:
-/// MIS is better than either, also for as many rays.
+/// A luminous square touches one that is not. Near the edge the path's own rays find it, and far away shadow
+/// rays do: MIS is better than either, even for the same number of rays.
 #[test]
 fn mis_wins_where_a_lamp_touches_what_it_lights() {
     let expected = form_factors(32, &SQUARES[1].1);
@@ -20,14 +20,14 @@ fn mis_wins_where_a_lamp_touches_what_it_lights() {
         let error = relative(&brightness(&of("picture", 64)), &expected);
         let rays = rays(&of("rays", 4));
         println!("{name}: off by {error:.4}, {rays:.1} rays a path");
-        // The error falls with the root of the samples, for which there are rays.
+        // The error falls with the root of the samples, and so of the rays.
         error * rays.sqrt()
     });
     assert!(mis < 0.75 * bsdf.min(light), "{mis}, {bsdf}, {light}");
 }
 
-/// The noise of shadow rays on the chess set comes from the choice by power alone, which knows no distance: chosen
-/// evenly, or asked of all emitters, it is gone.
+/// On the chess set, the noise of shadow rays comes from the choice by power alone, which ignores distance.
+/// With a uniform choice, or one shadow ray per emitter, it disappears.
 #[test]
 #[ignore = "nightly: gives figures of the page, by 1,024 samples; quick: emitters::choosing::mis_wins_where_a_lamp_touches_what_it_lights"]
 fn a_choice_by_power_alone_is_noisy_near_small_lamps() {

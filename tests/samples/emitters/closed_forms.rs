@@ -1,4 +1,4 @@
-//! Scenes whose light is known without a path.
+//! Scenes whose light has a closed form.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -27,14 +27,14 @@ pub fn balls(scene: &str) -> Vec<(DVec3, f64, f64)> {
     }
 }
 
-/// The part of the half-space above a point of the plane z = 0, weighed by the cosine, that a ball fills. The
-/// ball may be partly below the plane. By Stokes' theorem this part is half the integral of r × dr along the
-/// rim of the visible part of the ball: an arc of its outline, and an arc of the horizon.
+/// The cosine-weighted fraction of the half-space above a point of the plane z = 0 that a ball fills. The
+/// ball may be partly below the plane. By Stokes' theorem this fraction is half the integral of r × dr along
+/// the rim of the visible part of the ball: an arc of its outline, and an arc of the horizon.
 pub fn part_of_ball(point: DVec3, center: DVec3, radius: f64) -> f64 {
     let to = center - point;
     let sine = radius / to.length();
     let cosine = (1.0 - sine * sine).sqrt();
-    // Of the angle between the centre and the normal.
+    // The cosine and sine of the angle between the centre and the normal.
     let (up, aside) = (to.z / to.length(), to.truncate().length() / to.length());
     if cosine * up >= sine * aside {
         return up * sine * sine;
@@ -48,7 +48,7 @@ pub fn part_of_ball(point: DVec3, center: DVec3, radius: f64) -> f64 {
     (outline + horizon) / PI
 }
 
-/// The value of each pixel of a picture that is `side` wide and shows the white square whole.
+/// The value of each pixel of a picture of `side` pixels that shows the whole white square.
 pub fn lit_by_balls(scene: &str, side: u32) -> Vec<f64> {
     let balls = balls(scene);
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
@@ -61,7 +61,7 @@ pub fn lit_by_balls(scene: &str, side: u32) -> Vec<f64> {
 
 #[test]
 fn the_closed_form_is_the_integral() {
-    // The cosine's integral over the ball's cone, by midpoints.
+    // The integral of the cosine over the ball's cone, by midpoints.
     let by_points = |to: DVec3, radius: f64| {
         let whole = 1.0 - (1.0 - radius * radius / to.length_squared()).sqrt();
         let axis = to.normalize();
@@ -89,7 +89,7 @@ fn the_closed_form_is_the_integral() {
     assert_eq!(part_of_ball(DVec3::ZERO, DVec3::new(1.0, 0.0, -0.6), 0.5), 0.0);
 }
 
-/// The difference of each pixel from what is expected there is chance alone, and is 0 in the mean.
+/// Checks that the difference of each pixel from its expected value is random with mean 0.
 #[track_caller]
 fn is_lit_as(expected: &[f64], sets: &[&str], frames: u32) -> Estimate {
     let side = (expected.len() as f64).sqrt() as u32;
@@ -104,7 +104,7 @@ fn is_lit_as(expected: &[f64], sets: &[&str], frames: u32) -> Estimate {
 
 #[test]
 fn a_ball_lights_a_plane_as_its_closed_form_says() {
-    // Partly below the horizon: the harder of the two.
+    // Partly below the horizon: the harder case of the two.
     let expected = lit_by_balls("low ball", 64);
     for name in ESTIMATORS {
         is_lit_as(&expected, &["scene=low ball", &estimator(name), "depth=1"], 16);
@@ -148,7 +148,7 @@ fn so_they_do_by_more_samples() {
         let set = format!("emitters={choice}");
         let sets = ["scene=many balls", "estimator=light", "depth=1", &set];
         let estimate = is_lit_as(&expected, &sets, frames);
-        // The deviation of a single shadow ray; of Sobol's points it falls faster than that of chance.
+        // The deviation of a single shadow ray; with Sobol's points it falls faster than with random ones.
         let single = brightness(&chapter("64x64").frames(1).sets(&sets).picture());
         let squares = single.iter().zip(&expected).map(|(s, e)| (s - e).powi(2)).sum::<f64>();
         let deviation = (squares / expected.len() as f64).sqrt();
@@ -200,8 +200,8 @@ fn so_they_do_when_paths_meet_them() {
     }
 }
 
-/// One sample's variance, for light of 1: a path meets the ball or not; and a shadow ray brings the cosine
-/// of its direction, which is uniform in the cone, times the solid angle over pi.
+/// The variance of one sample, for light of 1: a path hits the ball or not; and a shadow ray brings the
+/// cosine of its direction, which is uniform in the cone, times the solid angle over pi.
 pub fn variances_of_ball(point: DVec3, center: DVec3, radius: f64) -> [f64; 2] {
     let to = center - point;
     let part = part_of_ball(point, center, radius);
@@ -212,8 +212,8 @@ pub fn variances_of_ball(point: DVec3, center: DVec3, radius: f64) -> [f64; 2] {
     [part * (1.0 - part), (2.0 * (1.0 - cosine)).powi(2) * squares - part * part]
 }
 
-/// The mean over the picture of one sample's variances where balls shine: of a path, and of a shadow ray to a
-/// ball that is chosen by its power. All balls of a scene are of one size.
+/// The mean over the picture of one sample's variance for luminous balls: of a path, and of a shadow ray to a
+/// ball chosen by its power. All balls of a scene have the same size.
 pub fn mean_variances(scene: &str, side: u32) -> [f64; 2] {
     let balls = balls(scene);
     let all: f64 = balls.iter().map(|(_, _, radiance)| radiance).sum();
@@ -221,7 +221,7 @@ pub fn mean_variances(scene: &str, side: u32) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for i in 0..side * side {
         let point = DVec3::new(place(i % side), -place(i / side), 0.0);
-        // The means of the squares of what a sample brings, and its mean.
+        // The means of the squares of a sample's light, and its mean.
         let (mut squares, mut mean) = ([0.0; 2], 0.0);
         for &(center, radius, radiance) in &balls {
             let part = part_of_ball(point, center, radius);
@@ -235,8 +235,8 @@ pub fn mean_variances(scene: &str, side: u32) -> [f64; 2] {
     sums
 }
 
-/// The same where a square shines that meets the lit one at a right angle. A shadow ray goes to one of its two
-/// triangles, each as likely, and is uniform in that one's solid angle.
+/// The same for a luminous square at a right angle to the lit one. A shadow ray goes to either of its two
+/// triangles with equal probability, and is uniform in that triangle's solid angle.
 pub fn variances_of_squares(side: u32) -> [f64; 2] {
     const FINE: u32 = 256;
     let factors = form_factors(side, &SQUARES[1].1);
@@ -245,11 +245,11 @@ pub fn variances_of_squares(side: u32) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for (i, factor) in (0..side * side).zip(&factors) {
         let point = DVec3::new(place(i % side), -place(i / side), 0.0);
-        // Of each triangle: its solid angle, and the integral of the cosine's square over it.
+        // For each triangle: its solid angle, and the integral of the squared cosine over it.
         let mut integrals = [[0.0; 2]; 2];
         for k in 0..FINE * FINE {
             let (across, along) = (k % FINE, k / FINE);
-            // The square's plane is y = -1/2; it reaches from x = -1/2 to 1/2 and from z = 0 to 1.
+            // The square is in the plane y = -1/2, from x = -1/2 to 1/2 and from z = 0 to 1.
             let to = DVec3::new(part(across) - 0.5, -0.5, part(along)) - point;
             let distance = to.length();
             let angle = to.y.abs() / distance.powi(3) / f64::from(FINE * FINE);
@@ -278,7 +278,7 @@ fn the_noise_of_one_sample_is_that_of_theory() {
     }
 }
 
-/// Nothing lies between: a shadow ray that met the emitter itself would leave a black pixel.
+/// Nothing is in between: a shadow ray that hit the emitter itself would leave a black pixel.
 fn no_shadow_ray_meets_its_emitter(arithmetic: &str) {
     for (scene, points) in [
         ("scene=ball", "triangles=area"),
@@ -307,7 +307,7 @@ fn nor_does_it_in_the_worst_arithmetic() {
     }
 }
 
-/// A scene file: a white square, a square above it that shines, and one that covers it from below.
+/// A scene file: a white square, a luminous square above it, and one that covers the latter from below.
 fn covered(gap: f64, shift: f64) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let square = |z: f64, half: f64| {
@@ -349,7 +349,7 @@ fn no_light_leaks_through_what_lies_close_before_an_emitter() {
         let leaks = lit.pixels.iter().filter(|pixel| pixel[..3] != [0.0; 3]).count();
         assert_eq!(leaks, 0, "pixels get light through a cover {gap} before the emitter");
     }
-    // Without the cover, the file shines by its Ke.
+    // Without the cover, the file is luminous by its Ke.
     let (_folder, file) = covered(-0.5, 0.0);
     let lit = brightness(&of_file(&file, 0.0, 16));
     let expected = form_factors(64, &SQUARES[0].1);
@@ -376,8 +376,8 @@ fn the_furnace_is_white(frames: u32) {
         estimate.is(1.0, &format!("furnace, {name}"));
         assert!(estimate.confidence < 0.03, "{name}");
         if name == "BSDF" {
-            // What a path brings is 1, whatever way it takes: no chance, no rounding.
-            // Seed 0 loses some: see `caught`.
+            // Every path brings 1, whatever way it takes: nothing is random or rounded. Seed 0 loses some:
+            // see `caught`.
             let other = chapter("96x60").frames(frames).sets(&sets).sets(&["seed=1"]).picture();
             let grey = other.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
             assert_eq!(grey, 0, "pixels of the furnace that are not white");
@@ -403,7 +403,7 @@ fn the_room_is_as_bright_as_its_series(estimators: &[&str], depths: &[i32], fram
             let sets = ["scene=closed room", &set, &estimator(name)];
             let shown = chapter("96x60").frames(frames).sets(&sets).picture();
             let estimate = Estimate::of(&brightness(&shown));
-            // 1/2 + 1/4 + … + 1/2^(depth + 1): each depth is what it is for all three.
+            // 1/2 + 1/4 + … + 1/2^(depth + 1): the three agree for each depth.
             let expected = 1.0 - 0.5f64.powi(depth + 1);
             if depth == 0 {
                 assert_eq!(estimate.mean, 0.5, "{name}");

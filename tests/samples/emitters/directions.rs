@@ -1,4 +1,4 @@
-//! Directions and solid angles, from the shader's own functions, held to 64 bits.
+//! Directions and solid angles from the shader's own functions, compared with 64 bits.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,8 @@ use super::{NAME, U};
 use crate::glass::equations::hash;
 use run::{command, copy_of_shaders, expected, render_by};
 
-/// Results of this chapter's files, one per pixel: `body` sees the pixel as `uvec2 at` and sets `vec4 answer`.
+/// The results of this chapter's files, one per pixel: `body` reads the pixel from `uvec2 at` and sets `vec4
+/// answer`.
 fn evaluate(body: &str, size: &str) -> Picture {
     let folder = copy_of_shaders();
     let file = folder.path().join(NAME).join("camera.rgen");
@@ -28,7 +29,8 @@ fn vector(pixel: &[f32; 4]) -> DVec3 {
     DVec3::new(pixel[0].into(), pixel[1].into(), pixel[2].into())
 }
 
-/// Spheres 7 away, of radius 7·2^-k and 7·(1 - 2^-k) in turn, k from 1 to 20: exact numbers all.
+/// Spheres at distance 7, of radius 7·2^-k and 7·(1 - 2^-k) alternately, k from 1 to 20: all numbers are
+/// exact.
 const SPHERE: &str = "
     int k = int(at.x) / 2 + 1;
     float small = ldexp(1.0, -k);
@@ -42,7 +44,7 @@ fn radius(x: usize) -> f64 {
     7.0 * if x.is_multiple_of(2) { small } else { 1.0 - small }
 }
 
-/// 1 - cosine of half the cone's opening, without cancellation in 64 bits either.
+/// 1 - cosine of half the cone's opening, without cancellation even in 64 bits.
 fn exact_cone(radius: f64) -> f64 {
     let cosine = ((7.0 - radius) * (7.0 + radius)).sqrt() / 7.0;
     (radius / 7.0).powi(2) / (1.0 + cosine)
@@ -62,7 +64,7 @@ fn a_cone_keeps_its_digits_far_away_and_close_by() {
         by_the_book = by_the_book.max((f64::from(pixel[1]) / exact - 1.0).abs());
     }
     println!("1 - cosine: off by {here:.1} u, by the book by {by_the_book:.3} of it");
-    // Half a dozen roundings, of which Vulkan lets a division be 5 u.
+    // Half a dozen roundings; Vulkan allows a division an error of 5 u.
     assert!(here < 16.0, "{here}");
     assert!(by_the_book > 0.5, "the textbook's form would do: {by_the_book}");
     expected::hold("29_emitters/cone", json!({ "here": here, "textbook": by_the_book }));
@@ -77,14 +79,14 @@ fn directions_to_a_ball_are_uniform_in_its_cone_and_meet_it() {
         let (x, y) = (i % 40, i / 40);
         let (radius, to) = (radius(x), vector(pixel));
         let direction = to.normalize();
-        // Which part of the cone is nearer to the axis: the first number.
+        // The fraction of the cone closer to the axis: the first number.
         let u = ((y % 8) as f64 + 0.5) / 8.0;
         let expected = (2.0 * u * exact_cone(radius)).sqrt();
         let chord = (direction - center / 7.0).length();
         assert!((chord - expected).abs() < 16.0 * U, "{x} {y}: {chord} {expected}");
         let aside = center.cross(direction).length();
         assert!(aside < radius + 7.0 * 16.0 * U, "{x} {y}: {aside} passes {radius}");
-        // And the point is where the ray meets the ball first.
+        // And the point is where the ray first hits the ball.
         let off = ((to - center).length() - radius).abs();
         assert!(off < 7.0 * 32.0 * U, "{x} {y}: {off} off the ball");
         assert!((to - center).dot(direction) < 7.0 * 32.0 * U, "{x} {y}: behind");
@@ -111,7 +113,7 @@ fn from_inside_a_ball_every_direction_is_as_likely() {
         let off = ((to - center).length() - radius).abs();
         assert!(off < 32.0 * U * radius, "{radius} {y}: {off} off the ball");
         assert_eq!(pixel[3], (4.0 * PI) as f32);
-        // Where the point is the ball's own, the direction is that of the chord, or there is none.
+        // If the point is on the ball itself, the direction is along the chord, or there is none.
         if radius > 7.0 {
             let direction = to.normalize();
             assert!((direction.z - (1.0 - 2.0 * u)).abs() < 1e-4, "{radius} {y}: {direction}");
@@ -119,7 +121,7 @@ fn from_inside_a_ball_every_direction_is_as_likely() {
     }
 }
 
-/// A corner and two edges, all exact: sixteenths, and the edges up to 2^-11 of that.
+/// A corner and two edges, all exact: sixteenths, and edges up to 2^-11 times those.
 const TRIANGLE: &str = "
     #define PICK(s) (float(int(hash(uvec4(at, s, 7)).x % 33u) - 16) / 16.0)
     float size = ldexp(1.0, -int(at.y % 12u));
@@ -155,14 +157,14 @@ impl Triangle {
         2.0 * a.dot(self.edges[0].cross(self.edges[1])).abs().atan2(sum)
     }
 
-    /// Tests whether its edges are shorter than 1/64 of its distance.
+    /// Returns whether its edges are shorter than 1/64 of its distance.
     fn is_far(&self) -> bool {
         let longer = self.edges.map(DVec3::length).into_iter().fold(0.0, f64::max);
         longer < self.corners[0].length() / 64.0
     }
 
-    /// Factor by which an error of a coordinate, relative to the distance, is enlarged: more, the flatter the
-    /// triangle is seen, and the nearer a corner is.
+    /// The factor by which an error of a coordinate, relative to the distance, is enlarged: the larger, the
+    /// flatter the triangle is seen, and the closer a corner is.
     fn condition(&self) -> f64 {
         let [a, b, c] = self.corners;
         let height = a.dot(self.edges[0].cross(self.edges[1])).abs();
@@ -234,7 +236,7 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
     for (i, pixel) in shown.pixels.iter().enumerate() {
         let triangle = Triangle::of(i, 96);
         let condition = triangle.condition();
-        // As the shader: others are sampled by area.
+        // As in the shader: others are sampled by area.
         if condition.is_nan() || condition >= 1e2 || triangle.is_far() {
             continue;
         }
@@ -242,7 +244,7 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
         let pick = |s: u32| (pick((i % 96) as u32, (i / 96) as u32, s) + 1.03125) / 2.0625;
         let [a, b, c] = triangle.corners.map(DVec3::normalize);
         let p = vector(pixel).normalize();
-        // Back to where the arc from b through p meets that from a to c.
+        // The reverse mapping: the intersection of the arc from b through p with that from a to c.
         let mut e = b.cross(p).cross(a.cross(c)).normalize();
         if e.dot(a + c) < 0.0 {
             e = -e;
@@ -250,7 +252,7 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
         let part = Triangle { corners: [a, b, e], edges: [b - a, e - a] };
         let found =
             [part.angle() / triangle.angle(), (p - b).length_squared() / (e - b).length_squared()];
-        // An error of a direction moves a point by so much of the triangle's width at least.
+        // An error of a direction moves a point by at least this fraction of the triangle's width.
         let width = triangle.angle().min(1.0);
         for (k, salt) in [11, 12].into_iter().enumerate() {
             worst[k] = worst[k].max((found[k] - pick(salt)).abs() * width / U / condition);
@@ -261,7 +263,8 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
     assert!(worst[0] < 16.0 && worst[1] < 16.0, "{worst:?}");
 }
 
-/// A triangle of size 1 whose edge is 2^-k away, seen so flat that its solid angle is below 2^-12; and one of size 2^-7
+/// A triangle of size 1 with an edge 2^-k away, seen so flat that its solid angle is below 2^-12; and one of
+/// size 2^-7 at distance 1, at a slant.
 /// at distance 1, at a slant.
 #[test]
 fn no_sample_of_a_triangle_stands_for_more_than_another() {
@@ -292,7 +295,7 @@ fn no_sample_of_a_triangle_stands_for_more_than_another() {
         assert!(exact < 1.0 / 4096.0, "{exact}");
         let angle = f64::from(pixel[0]);
         most[x % 2] = most[x % 2].max((angle / exact - 1.0).abs());
-        // The other way to find it, by chance, has the same density.
+        // Finding it at random, the other way, has the same density.
         assert!((f64::from(pixel[1]) / angle - 1.0).abs() < 1e-4, "{x} {y}: {pixel:?}");
         if x % 2 == 1 {
             let (to, beyond) = (f64::from(pixel[2]) - away, 1.0 / 256.0);
@@ -324,7 +327,7 @@ fn points_that_are_aimed_at_lie_above_their_triangle() {
         let normal = if normal.dot(a) > 0.0 { -normal } else { normal };
         let height = (vector(pixel) - a).dot(normal);
         assert!((height - 1e-4).abs() < 2e-6, "{i}: {height}");
-        // Its foot is within: weights from 0 to 1.
+        // Its foot is inside: weights from 0 to 1.
         let foot = vector(pixel) - height * normal - a;
         let area = across.cross(along).dot(normal);
         let weights = [foot.cross(along).dot(normal) / area, across.cross(foot).dot(normal) / area];

@@ -26,25 +26,25 @@ fn estimators() {
     draw_panels("29_estimators.png", 1, &[Shown::row(&[0, 1, 2].map(show))]);
 }
 
-/// The rays of a path, in the mean: a sixteenth of white each.
+/// The mean number of rays of a path; each is shown as a sixteenth of white.
 pub fn rays(picture: &Picture) -> f64 {
     16.0 * Estimate::of(&brightness(picture)).mean
 }
 
-/// A title, and the curves of a chart: a name and its points.
+/// The title and curves of a chart: each a name and its points.
 type Curves = (&'static str, Vec<(&'static str, Vec<[f64; 2]>)>);
 
 const FRAMES: [u32; 5] = [1, 4, 16, 64, 256];
 const ERRORS: &[f64] = &[0.0001, 0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0];
 
-/// The root of the mean squared error over that of what is expected.
+/// The root of the mean squared error relative to the expected value.
 pub fn relative(shown: &[f64], expected: &[f64]) -> f64 {
     let squares: f64 = shown.iter().zip(expected).map(|(s, e)| (s - e).powi(2)).sum();
     (squares / expected.iter().map(|e| e * e).sum::<f64>()).sqrt()
 }
 
-/// The error of one sample a pixel: the root mean square over the first 64 samples, each alone. A path that meets a
-/// small bright ball is rare, so one sample of 1,024 pixels does not tell.
+/// The error of one sample per pixel: the root mean square over the first 64 samples, each alone. A path
+/// rarely hits a small bright ball, so a single sample of 1,024 pixels says little.
 fn error_alone(sets: &[&str], expected: &[f64]) -> f64 {
     let square = |k: u32| {
         let samples = format!("{k}..{}", k + 1);
@@ -91,16 +91,16 @@ fn errors() {
                 }
             }
             held.insert(format!("{scene}.{name}.rays"), rays.into());
-            // What an estimator does that weighs two ways has no such simple form.
+            // An estimator that weighs two ways has no such simple form.
             if let Some(variance) = theories.get(i) {
                 let of = |frames: u32| {
                     [rays * f64::from(frames), (variance / f64::from(frames)).sqrt() / scale]
                 };
-                // A sample alone is as far off as theory says; Sobol's points are not worse.
+                // The error of a single sample agrees with theory; Sobol's points are not worse.
                 let (alone, theory) = (error_alone(&sets, expected), of(1)[1]);
                 println!("{scene}, {name}: one sample {alone:.5}, by theory {theory:.5}");
                 assert!((alone / theory - 1.0).abs() < 0.1, "{scene}, {name}: {alone} {theory}");
-                // One sample of each pixel alone may miss theory by chance.
+                // A single sample of each pixel may deviate from theory at random.
                 let mut several = points.iter().zip(FRAMES).skip(1);
                 assert!(
                     several.all(|(p, n)| p[1] < 1.15 * of(n)[1]),
@@ -110,7 +110,7 @@ fn errors() {
             }
             series.push((*name, points, true));
         }
-        // Last, so that an estimator has one colour in all charts.
+        // Last, so that an estimator has the same colour in all charts.
         let series = series.into_iter().chain(lines).map(|(name, points, dots)| Series {
             name,
             points,
@@ -126,7 +126,7 @@ fn errors() {
 
 const SMALL: &str = "96x60";
 
-/// The light that a depth leaves out: by the same random numbers, so that chance has no part in it.
+/// The light that a depth leaves out, with the same random numbers, so that it has no noise.
 #[test]
 #[ignore = "nightly: paths of 256 bounces; quick: emitters::closed_forms::a_room_that_shines_is_as_bright_as_its_series"]
 fn a_depth_leaves_out_what_its_paths_do_not_reach() {
@@ -146,7 +146,8 @@ fn a_depth_leaves_out_what_its_paths_do_not_reach() {
     expected::hold("29_emitters/left_out", held.into());
 }
 
-/// The set by lamp light: error against rays and against time, beside a picture of many more samples.
+/// The set by lamp light: the error against rays and against time, compared with a picture of many more
+/// samples.
 #[test]
 #[ignore = "by hand: draws docs/images/29_price.svg; takes minutes"]
 fn price() {

@@ -1,5 +1,5 @@
-//! Number of boxes a ray is tested against, counted with trees of 38_primitive_order: for many levels, for one level
-//! whose list comes geometry by geometry, and for one level that a builder has sorted as a whole.
+//! The number of boxes a ray is tested against, counted with trees of 38_primitive_order: for many levels,
+//! for one level with the geometries one after the other, and for one level sorted as a whole by a builder.
 
 use std::ops::Range;
 
@@ -15,21 +15,21 @@ use super::{Cut, chapter, cut_in, scene};
 use crate::primitive_order::{tested, tested_leaves, tree};
 use tree::Node;
 
-/// The trees of a scene: the top level's, whose leaves are instances, and those of the bottom levels.
+/// The trees of a scene: that of the top level, whose leaves are instances, and those of the bottom levels.
 struct Trees {
     top: Vec<Node>,
-    /// For each leaf of the top level, in its order: the transform to its space, and its tree.
+    /// For each leaf of the top level, in order: the transform to its space, and its tree.
     below: Vec<(DAffine3, usize)>,
     bottom: Vec<Vec<Node>>,
 }
 
-/// Boxes in an order that halves them well.
+/// Boxes in an order suitable for halving.
 fn sorted(bounds: &[Bounds]) -> Vec<Bounds> {
     order::kd_median(bounds).into_iter().map(|i| bounds[i as usize]).collect()
 }
 
 impl Trees {
-    /// `whole`: the triangles of a level are sorted across its geometries.
+    /// With `whole`, the triangles of a level are sorted across its geometries.
     fn new(scene: &Scene, places: &[Range<usize>], whole: bool) -> Self {
         let boxes = scene.model.meshes.iter().map(|mesh| mesh.triangle_bounds());
         let boxes: Vec<_> = boxes.collect();
@@ -61,7 +61,7 @@ impl Trees {
         Self { top: tree::nodes(&top), below, bottom }
     }
 
-    /// Boxes that a ray is tested against up to `end`, in both levels.
+    /// The number of boxes a ray is tested against up to `end`, in both levels.
     fn tested(&self, origin: DVec3, direction: DVec3, end: f64) -> usize {
         let (mut tests, entered) = tested_leaves(&self.top, origin, direction, end);
         for leaf in entered {
@@ -100,7 +100,7 @@ fn boxes_per_ray() {
             for (name, value) in [("whole", whole), ("one", one), ("many", many)] {
                 held.insert(format!("{word}.{parts}.{name}"), json!((value * 10.0).round() / 10.0));
             }
-            // However the pieces are cut, a tree of all their triangles is the same.
+            // A tree of all triangles of the pieces does not depend on the cuts.
             assert!(whole <= 1.001 * many.min(one), "{parts} {word}: {whole} {one} {many}");
         }
     }

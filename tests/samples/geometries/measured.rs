@@ -1,4 +1,4 @@
-//! What one level of many geometries costs, beside many levels of one each: memory, and the time of the build.
+//! The cost of one level with many geometries and of many levels with one each: memory, and build time.
 
 use serde_json::{Map, Value};
 
@@ -6,7 +6,7 @@ use run::{Chapter, expected};
 
 use super::{NAME, cut_in};
 
-/// A run that shows hardly a pixel.
+/// The report of a run with hardly any pixels.
 fn report(levels: &str, cut: &str, parts: u32) -> Value {
     cut_in(Chapter::new(NAME).size("8x5").set("levels", levels), cut, parts).run().report
 }
@@ -32,7 +32,7 @@ fn bytes_of_one_level_and_of_many() {
     expected::hold("44_geometries/bytes", held.into());
 }
 
-/// Builds in turns, so that whatever else the machine does takes from both alike.
+/// Builds alternate, so that the machine's other work affects both alike.
 #[test]
 #[ignore = "by hand: takes times"]
 fn builds_in_time() {

@@ -1,4 +1,4 @@
-//! A slab, a ball and a prism: where a ray leaves them is known.
+//! A slab, a ball and a prism, for which the exit of a ray is known.
 
 use common::app::Picture;
 use common::scene::Camera;
@@ -24,7 +24,7 @@ fn rays(camera: &Camera, size: (u32, u32)) -> Vec<(DVec3, DVec3)> {
     (0..size.0 * size.1).map(ray).collect()
 }
 
-/// The last rays of a picture's paths, and how many rays each path has.
+/// The last rays of a picture's paths, and the number of rays of each path.
 fn last_rays(size: &str, sets: &[&str]) -> Vec<(DVec3, DVec3, u32)> {
     let show = |show: &str| chapter(size).frames(1).sets(sets).sets(&[show]).picture();
     let [origins, directions] = ["show=last origin", "show=last direction"].map(show);
@@ -48,7 +48,7 @@ fn a_slab_moves_a_ray_aside_and_turns_it_by_nothing() {
     let (mut turned, mut off, mut aside) = (0f64, 0f64, 0f64);
     let last = last_rays("64x40", &["scene=slab"]);
     for ((eye, ray), (origin, direction, count)) in rays(&camera, (64, 40)).into_iter().zip(last) {
-        // The camera's, one within the slab, and one behind it: no ray meets the surface that it left.
+        // The camera's, one inside the slab, and one behind it: no ray hits the surface it left.
         assert_eq!(count, 3, "rays of {ray}");
         let cosine = -ray.dot(normal);
         let sine = (1.0 - cosine * cosine).sqrt();
@@ -57,8 +57,8 @@ fn a_slab_moves_a_ray_aside_and_turns_it_by_nothing() {
         let moved = (origin - eye).cross(ray).length();
         aside = aside.max(expected);
         turned = turned.max((direction - ray).length() / U);
-        // Either start lies off its surface by the bound of 05, and this tells how far the second does. The
-        // rest is rounded in coordinates as large as the way.
+        // Each start is off its surface by the bound of 05, and this is the distance of the second. The rest
+        // is rounding of coordinates as large as the path.
         let way = (origin - eye).length();
         let height = -origin.dot(normal) - 0.5;
         let error = (moved - expected).abs();
@@ -71,13 +71,13 @@ fn a_slab_moves_a_ray_aside_and_turns_it_by_nothing() {
     expected::hold("27_glass/slab", json!({ "aside": aside, "off": off, "turned": turned }));
 }
 
-/// The point where a ray passes nearest to the z axis.
+/// The point where a ray passes closest to the z axis.
 fn crossing(origin: DVec3, direction: DVec3) -> f64 {
     let (o, d) = (origin.truncate(), direction.truncate());
     origin.z - direction.z * o.dot(d) / d.dot(d)
 }
 
-/// The way of a ray through the unit ball around the origin.
+/// The path of a ray through the unit ball around the origin.
 fn through_ball(origin: DVec3, direction: DVec3) -> (DVec3, DVec3) {
     let to_middle = -origin.dot(direction);
     let aside = origin + to_middle * direction;
@@ -89,7 +89,7 @@ fn through_ball(origin: DVec3, direction: DVec3) -> (DVec3, DVec3) {
 
 #[test]
 fn a_ball_has_its_focal_length() {
-    // In closed form: nR / 2(n - 1) from the middle, for rays near the axis.
+    // The closed form: nR / 2(n - 1) from the middle, for rays close to the axis.
     let (origin, direction) = through_ball(DVec3::new(1e-5, 0.0, 3.0), DVec3::NEG_Z);
     let focal = INDEX / (2.0 * (INDEX - 1.0));
     assert!((crossing(origin, direction) + focal).abs() < 1e-9);
@@ -110,9 +110,9 @@ fn a_ball_has_its_focal_length() {
             nearest = (height, -shown, -expected);
         }
     }
-    // The normals are those of the ball, and the triangles lie below it by their sagitta at most: half a
-    // diagonal of a square whose side is 2 pi/512. Each surface turns the ray by half of all, and by as much
-    // more as it is nearer to the middle: the crossing, 1.5 away, moves by 1.5 sagittae at most.
+    // The normals are those of the ball, and the triangles are below it by their sagitta at most: half a
+    // diagonal of a square of side 2 pi/512. Each surface turns the ray by half of the total, and the more the
+    // closer it is to the middle: the crossing, 1.5 away, moves by at most 1.5 sagittae.
     let sagitta = (std::f64::consts::TAU / 512.0).powi(2) / 4.0;
     println!("at most {worst:.2e} off, sagitta {sagitta:.2e}; nearest {nearest:?}");
     assert!(worst < 1.6 * sagitta + 64.0 * U / 0.05, "{worst}");
@@ -134,7 +134,7 @@ fn a_prism_deviates_by_its_least_angle_and_never_by_less() {
             continue;
         }
         passed += 1;
-        // The chord tells a small angle and a large one alike.
+        // The chord is accurate for small and large angles.
         found = found.min(2.0 * (0.5 * (direction - ray).length()).asin());
     }
     println!(
@@ -143,7 +143,8 @@ fn a_prism_deviates_by_its_least_angle_and_never_by_less() {
         least.to_degrees()
     );
     assert!(passed > 2000);
-    // Less by rounding; more because the next pixel may be 1/2 pixel away both ways, and the angle is a parabola there.
+    // Less by rounding; more because the next pixel may be 1/2 pixel away in both directions, and the angle
+    // is a parabola there.
     let pixel = (5f64.to_radians() / 60.0) * 0.5;
     assert!(found > least - 32.0 * U && found < least + 4.0 * pixel * pixel, "{found} {least}");
     expected::hold(
@@ -165,7 +166,7 @@ fn a_camera_within_the_ball_sees_what_refraction_lets_in() {
         worst = worst.max((direction - bent(ray, -place, INDEX, 1.0)).length());
     }
     println!("off by {worst:.2e}");
-    // The place is off by the sagitta, and so is the normal.
+    // The position is off by the sagitta, and so is the normal.
     assert!(worst < 8.0 * (std::f64::consts::TAU / 512.0).powi(2) / 4.0, "{worst}");
 }
 
@@ -192,20 +193,20 @@ fn a_pane_shows_the_sky_behind_it_and_mirrors_the_sky_above() {
     for ((eye, ray), pixel) in rays(&camera, (64, 40)).into_iter().zip(&shown.pixels) {
         let cosine = -ray.dot(normal);
         let on = eye + ray * (eye.dot(normal) / cosine);
-        // Not where the edge of the pane or the horizon goes through the pixel.
+        // Not if the edge of the pane or the horizon goes through the pixel.
         if on.x.abs() > 4.8 || on.cross(normal).x.abs() > 4.8 || ray.y.abs() < 0.02 {
             continue;
         }
         let within = (1.0 - (1.0 - cosine * cosine) / (INDEX * INDEX)).sqrt();
         let across = (cosine - INDEX * within) / (cosine + INDEX * within);
         let along = (INDEX * cosine - within) / (INDEX * cosine + within);
-        // Each polarisation goes to and fro between the sides by itself.
+        // Each polarisation bounces between the sides separately.
         let sheet = |one: f64| 2.0 * one / (1.0 + one);
         let part = 0.5 * (sheet(across * across) + sheet(along * along));
         let (behind, above) = (sky(ray), sky(ray + 2.0 * cosine * normal));
         let value = pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
         off += value - (behind + part * (above - behind));
-        // A sample takes one of the two.
+        // A sample follows one of the two.
         variance += part * (1.0 - part) * (above - behind).powi(2) / f64::from(FRAMES);
         mirrored += part;
         count += 1.0;
@@ -215,7 +216,7 @@ fn a_pane_shows_the_sky_behind_it_and_mirrors_the_sky_above() {
         "{count} pixels, {:.3} mirrored: off by {off:.6}, ± {confidence:.6}",
         mirrored / count
     );
-    // It would be seen if the sheet had one side only: its part would be nearly half as large.
+    // The test would detect a sheet with only one side, whose part would be nearly half as large.
     assert!(count > 1000.0 && mirrored / count > 0.1, "{count} {mirrored}");
     assert!(off.abs() < confidence, "{off}, not within {confidence}");
 }

@@ -1,4 +1,4 @@
-//! Fresnel's equations, the refracted direction and the list of media, each as the GPU computes it.
+//! Fresnel's equations, the refracted direction and the list of media, as computed by the GPU.
 
 use glam::DVec2;
 use reference::ulp::ulp_error;
@@ -12,8 +12,8 @@ const HEIGHT: usize = 32;
 const SIZE: &str = "288x32";
 const FILES: &str = "#include \"common/random.glsl\"\n#include \"common/glass.glsl\"\n#include \"common/media.glsl\"";
 
-/// 256 cosines from 1/256 to 1 and 32 that are powers of two, each between two media: indices 1 and
-/// 1 + 2^-k, into the denser for the first 16 rows and out of it for the rest. All are exact.
+/// 256 cosines from 1/256 to 1 and 32 that are powers of two, each between two media: indices 1 and 1 + 2^-k,
+/// into the denser one for the first 16 rows and out of it for the rest. All are exact.
 const CASES: &str = "
     float cosine = at.x < 256 ? float(at.x + 1) / 256.0 : 1.0 / float(1u << uint(at.x - 256) / 2u);
     float dense = 1.0 + 1.0 / float(1u << uint(at.y % 16));
@@ -36,13 +36,13 @@ impl Case {
         Self { cosine, from, to }
     }
 
-    /// Index times cosine behind the surface, squared.
+    /// The squared product of index and cosine behind the surface.
     fn behind(&self) -> f64 {
         (self.to - self.from) * (self.to + self.from) + (self.from * self.cosine).powi(2)
     }
 
-    /// The reflected and the refracted part of light that swings across the plane of incidence, and of light
-    /// that swings within it; `None` if all is reflected.
+    /// The reflected and the refracted fraction of light polarised perpendicular to the plane of incidence,
+    /// and of light polarised parallel to it; `None` for total reflection.
     fn polarised(&self) -> Option<[(f64, f64); 2]> {
         let (q, p) = (self.from * self.cosine, Some(self.behind()).filter(|p2| *p2 > 0.0)?.sqrt());
         let (s, t) = (self.to * self.to * q, self.from * self.from * p);
@@ -53,13 +53,14 @@ impl Case {
         Some([(across, through), (within, through_within)])
     }
 
-    /// The reflected and the refracted part of light that is not polarised; `None` if all is reflected.
+    /// The reflected and the refracted fraction of unpolarised light; `None` for total reflection.
     fn split(&self) -> Option<(f64, f64)> {
         let [(r_across, t_across), (r_within, t_within)] = self.polarised()?;
         Some((0.5 * (r_across + r_within), 0.5 * (t_across + t_within)))
     }
 
-    /// By how much an error of the cosine counts in what is behind: 1, and more near total reflection.
+    /// The factor by which an error of the cosine affects the cosine behind the surface: 1, and more near
+    /// total reflection.
     fn condition(&self) -> f64 {
         1.0 + (self.from * self.cosine).powi(2) / self.behind()
     }
@@ -69,7 +70,7 @@ impl Case {
 fn what_is_reflected_and_what_goes_through_is_all() {
     let body = "
         Split split = fresnel_exact(cosine, from, to);
-        // As textbooks have it.
+        // As in textbooks.
         float ratio = from / to;
         float other = sqrt(max(1.0 - ratio * ratio * (1.0 - cosine * cosine), 0.0));
         float across = (from * cosine - to * other) / (from * cosine + to * other);
@@ -122,7 +123,7 @@ fn a_refracted_ray_keeps_its_digits() {
         if case.behind() <= 0.0 {
             continue;
         }
-        // The ray that the shader has: its sine is rounded.
+        // The shader's ray: its sine is rounded.
         let sine = (((1.0 - case.cosine) * (1.0 + case.cosine)) as f32).sqrt();
         let down = case.behind().sqrt();
         let exact = DVec2::new(case.from * f64::from(sine), -down).normalize();
@@ -130,7 +131,7 @@ fn a_refracted_ray_keeps_its_digits() {
             let other = DVec2::new(x.into(), y.into());
             (exact.perp_dot(other.normalize()).abs() / U, (other.length() - 1.0).abs() / U)
         };
-        // Near total reflection an error of the cosine is divided by that behind the surface.
+        // Near total reflection, an error of the cosine is divided by the cosine behind the surface.
         let condition = 1.0 + case.from * case.cosine / down;
         let (mine, books) = (error(x, y), error(bx, by));
         bend = bend.max(mine.0 / condition);
@@ -152,7 +153,7 @@ fn a_refracted_ray_keeps_its_digits() {
     );
 }
 
-/// The parts of light that a pane with such sides sends back and lets through: light that is reflected 1, 3, 5, …
+/// The fractions of light that a pane with such sides reflects and transmits: light reflected 1, 3, 5, …
 /// times between the sides comes back, and the rest goes through.
 fn to_and_fro((reflected, through): (f64, f64)) -> (f64, f64) {
     let (mut within, mut comes, mut goes) = (through, reflected, 0.0);
@@ -171,7 +172,7 @@ fn to_and_fro((reflected, through): (f64, f64)) -> (f64, f64) {
 
 #[test]
 fn a_sheet_reflects_what_its_two_sides_do_together() {
-    // Sheets of air in glass, too: there all may be reflected.
+    // Also sheets of air in glass, which may reflect everything.
     let body = "
         Split sheet = of_sheet(fresnel_exact(cosine, from, to));
         answer = vec4(unpolarised(sheet.reflected), unpolarised(sheet.through), 0.0, 0.0);
@@ -184,16 +185,16 @@ fn a_sheet_reflects_what_its_two_sides_do_together() {
             assert_eq!((back, through), (1.0, 0.0), "all is reflected");
             continue;
         };
-        // Each polarisation goes to and fro by itself, and light that is not polarised is half of each.
+        // Each polarisation bounces separately, and unpolarised light is half of each.
         let [(b, t), (b_within, t_within)] = sides.map(to_and_fro);
         let (comes, goes) = (0.5 * (b + b_within), 0.5 * (t + t_within));
-        // Twice as many roundings as in one side.
+        // Twice as many roundings as for one side.
         let bound = 32.0 * U * case.condition();
         assert!(
             (f64::from(back) - comes).abs() < bound && (f64::from(through) - goes).abs() < bound,
             "{i}: {back} {through}, not {comes} {goes}"
         );
-        // The error that both polarisations by their mean would have.
+        // The error of averaging the two polarisations first.
         let one = case.split().unwrap().0;
         by_the_mean = by_the_mean.max(2.0 * one / (1.0 + one) / comes - 1.0);
     }
@@ -210,7 +211,7 @@ fn media_are_those_of_a_sorted_list() {
             uint material = (bits >> 8u) % 5u;
             media = bits % 3u > 0u ? entered(media, material) : left(media, material);
         }
-        // Small numbers are exact, and air is told by -1.
+        // Small numbers are exact, and air is written as -1.
         answer = mix(vec4(media), vec4(-1.0), equal(media, uvec4(AIR)));
     ";
     let answers = evaluate(FILES, body, "64x64");
@@ -222,7 +223,7 @@ fn media_are_those_of_a_sorted_list() {
             if !bits.is_multiple_of(3) {
                 media.push(material);
                 media.sort_unstable();
-                // The fifth body is forgotten: that which counts least.
+                // The fifth body is dropped: the one with the lowest priority.
                 media.truncate(4);
             } else if let Some(found) = media.iter().position(|m| *m == material) {
                 media.remove(found);

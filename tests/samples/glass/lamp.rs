@@ -1,18 +1,19 @@
-//! The lamp's light, found by shadow rays and by rays that happen to meet it: both are the light of a disk.
+//! The lamp's light, found by shadow rays and by rays that hit it at random: both equal the light of a disk.
 
 use glam::DVec3;
 use run::{Chapter, evaluate, shaders_with};
 
 use super::NAME;
 
-/// Distances of the lamp, in radii, and tilts of the surface against the way to it, in radians.
+/// Distances of the lamp, in radii, and angles between the surface's normal and the direction to it, in
+/// radians.
 const CASES: [(f64, f64); 4] = [(1.5, 0.0), (3.0, 0.0), (3.0, 0.4), (6.0, 0.7)];
 const SIZE: &str = "64x64";
 /// Rows of the picture for each case.
 const ROWS: usize = 16;
 
-/// The light of a disk of radius 1 that arrives at a surface, at strength 1: radiance 1/π over the disk, by its solid
-/// angle and the surface's cosine, summed over rings and sectors of equal area.
+/// The light of a disk of radius 1 that arrives at a surface, at strength 1: radiance 1/π over the disk, by
+/// its solid angle and the surface's cosine, summed over rings and sectors of equal area.
 fn of_disk(distance: f64, tilt: f64) -> f64 {
     let normal = DVec3::new(tilt.sin(), tilt.cos(), 0.0);
     let (rings, sectors) = (400, 400);
@@ -58,7 +59,8 @@ fn shadow_rays_and_other_rays_count_the_same_lamp() {
             vec4 u = random(uvec2(at), i, 0, DIMENSION_LIGHT);
             vec3 to_light = towards_disk(lamp, vec3(0.0), disk_point(0, 1, u.xy));
             mean.x += arriving_from(lamp, vec3(0.0), to_light).x * dot(normal, normalize(to_light));
-            // A direction that is as likely as its cosine: each stands for pi times the light that it sees.
+            // A direction with a density proportional to its cosine: each represents pi times the light it
+            // finds.
             vec2 flat_part = disk_point(0, 1, u.zw);
             float height = sqrt(max(1.0 - dot(flat_part, flat_part), 0.0));
             vec3 direction = flat_part.x * right + flat_part.y * vec3(0.0, 0.0, 1.0) + height * normal;
@@ -70,7 +72,7 @@ fn shadow_rays_and_other_rays_count_the_same_lamp() {
     let answers = evaluate(files, &body, SIZE);
     for (pixels, (distance, tilt)) in answers.pixels.chunks(ROWS * 64).zip(CASES) {
         let exact = of_disk(distance, tilt);
-        // A ray that may go anywhere above the surface meets a lamp of 6 radii once in forty times.
+        // A random ray above the surface hits a lamp at 6 radii once in forty times.
         for (way, (name, most)) in
             [("by shadow rays", 0.003), ("by other rays", 0.06)].into_iter().enumerate()
         {

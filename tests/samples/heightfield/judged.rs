@@ -1,4 +1,4 @@
-//! The ground as the reference has it, and a verdict on where a rung says that a ray meets it.
+//! The reference's ground, and a verdict on a rung's hit with it.
 
 use glam::DVec3;
 use reference::heightfield::Heightfield;
@@ -7,24 +7,24 @@ use reference::{Ray, Surface};
 use super::ground::Landscape;
 use super::shape::HeightfieldShape;
 
-/// The fault of an answer.
+/// The verdict on an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Nothing, within the bound.
+    /// Right, within the bound.
     Right,
-    /// The ray grazes the ground within the bound: it may hit or miss.
+    /// The ray grazes the ground within the bound, so it may hit or miss.
     Grazes,
     /// A hit before the ground.
     TooNear,
-    /// A hit behind it, in the ground.
+    /// A hit behind it, inside the ground.
     TooFar,
-    /// A hit behind it, after the ray has come out of the ground again.
+    /// A hit behind it, after the ray has left the ground again.
     Through,
     FalseHit,
     FalseMiss,
 }
 
-/// The ground as the reference has it, and how far rays from a place may be off.
+/// The reference's ground, and the error bound of rays from a place.
 pub struct Exact {
     pub field: Heightfield,
     low: DVec3,
@@ -32,7 +32,7 @@ pub struct Exact {
     pub error: f64,
 }
 
-/// A landscape in f64, from the very numbers that the shaders get.
+/// A landscape in f64, from the same numbers as the shaders.
 pub fn exact(landscape: Landscape) -> Heightfield {
     let HeightfieldShape { k, a, fx, fz, b, gx, gz, lipschitz } = landscape.shape();
     let [k, a, fx, fz, b, gx, gz, lipschitz] = [k, a, fx, fz, b, gx, gz, lipschitz].map(f64::from);
@@ -40,9 +40,9 @@ pub fn exact(landscape: Landscape) -> Heightfield {
 }
 
 impl Exact {
-    /// For rays whose origins have coordinates no larger than those.
+    /// The ground for rays whose origins have no larger coordinates than these.
     pub fn new(landscape: Landscape, origin: DVec3) -> Self {
-        // By rounding, a point of the ground may lie above the box; the box's sides count.
+        // Rounding may move a point of the ground above the box, so the box's sides count.
         let (low, high) = landscape.bounds(1e-2);
         let error = landscape.error(origin.abs());
         Self { field: exact(landscape), low: low.as_dvec3(), high: high.as_dvec3(), error }
@@ -53,7 +53,7 @@ impl Exact {
         p.y - self.field.height(p.x, p.z).0
     }
 
-    /// The part of a ray in the box.
+    /// The part of a ray inside the box.
     fn within(&self, ray: &Ray) -> Option<Ray> {
         let (a, b) =
             ((self.low - ray.origin) / ray.direction, (self.high - ray.origin) / ray.direction);
@@ -66,14 +66,14 @@ impl Exact {
         self.field.intersect(&self.within(ray)?)
     }
 
-    /// Bound on the height's distance from 0 where one end of the last bracket is above and the other below.
+    /// Bound on the height at the hit, if the last bracket's ends are above and below the ground.
     pub fn bound(&self, ray: &Ray, t: f64) -> f64 {
         let d = ray.direction;
         let gap = t.abs() * 2.0 * 1.2e-7;
         self.error + gap * (self.field.lipschitz * d.x.hypot(d.z) + d.y.abs())
     }
 
-    /// Tests whether the ray is nowhere farther from the ground than the bound, between two places.
+    /// Returns whether the ray stays within the bound of the ground between two distances.
     pub fn stays_near(&self, ray: &Ray, from: f64, to: f64) -> bool {
         (0..=64).all(|i| {
             let t = from + (to - from) * f64::from(i) / 64.0;
@@ -81,7 +81,7 @@ impl Exact {
         })
     }
 
-    /// Tests whether a ray that meets the ground at `from` leaves it again before `to`.
+    /// Returns whether a ray that hits the ground at `from` leaves it again before `to`.
     fn comes_out(&self, ray: &Ray, from: f64, to: f64) -> bool {
         let side = self.height_above(ray, from - 1e-6).signum();
         let between = (1..1000).map(|i| from + (to - from) * f64::from(i) / 1000.0);
@@ -110,7 +110,7 @@ impl Exact {
                 if near { Verdict::Grazes } else { Verdict::FalseHit }
             }
             (None, Some(&Surface { t, .. })) => {
-                // How deep does it go before it comes out again, or leaves the box?
+                // The depth it reaches before it leaves the ground or the box.
                 let end = self.within(ray).map_or(t, |ray| ray.tmax);
                 let side = self.height_above(ray, t - 1e-9 * t.max(1.0)).signum();
                 let steps = (0..).map(|i| t + 1e-7 * 1.1f64.powi(i)).take_while(|t| *t < end);

@@ -1,4 +1,4 @@
-//! Rays of a view, what each rung makes of them, and a row of the page's table.
+//! The rays of a view, the result of each rung for them, and a row of the page's table.
 
 use std::fmt;
 
@@ -17,8 +17,8 @@ use run::primary_hits::rays;
 
 pub const RUNGS: [&str; 5] = ["relaxed", "secant", "lipschitz", "over-relaxed", "bisected"];
 
-/// Two triangles, much smaller than they are far apart: no ray here meets them, so that the ground is alone. They load
-/// faster than the pieces.
+/// Two triangles, much smaller than their distance: no ray here hits them, so that only the ground is
+/// visible. They load faster than the pieces.
 pub struct Alone(tempfile::TempDir);
 
 impl Alone {
@@ -35,14 +35,14 @@ impl Alone {
         chapter(size).sets(sets).scene(self.0.path().join("a.obj")).picture()
     }
 
-    /// The rays of the camera, as the GPU wrote them.
+    /// The camera's rays, as written by the GPU.
     pub fn rays(&self, size: &str, sets: &[&str]) -> Vec<Ray> {
         let directions = self.shown(size, &[sets, &["show=ray direction"]].concat());
         rays(&camera(sets), &directions).collect()
     }
 }
 
-/// The camera of these settings: that of a setting, or else of the preset.
+/// The camera for these settings: that of a setting, or else of the preset.
 pub fn camera(sets: &[&str]) -> Camera {
     let said = |control: &str| {
         let mut said = sets.iter().filter_map(|set| set.split_once('='));
@@ -62,18 +62,18 @@ pub fn camera(sets: &[&str]) -> Camera {
 /// The march of a ray by a rung.
 pub struct March {
     pub ray: Ray,
-    /// The distance of the hit that it found.
+    /// The distance of the hit.
     pub found: Option<f64>,
-    /// Number of heights that it evaluated.
+    /// The number of heights evaluated.
     pub steps: f64,
     pub verdict: Verdict,
     /// The distance of the exact hit.
     pub exact: Option<f64>,
-    /// Angle between the ray and the ground there, in degrees.
+    /// The angle between the ray and the ground at the exact hit, in degrees.
     pub angle: Option<f64>,
 }
 
-/// All rays of a view, by one rung.
+/// All rays of a view, marched by one rung.
 pub struct Marched(pub Vec<March>);
 
 impl Marched {
@@ -112,7 +112,7 @@ impl Marched {
         self.0.iter().filter(|march| march.verdict == verdict).count()
     }
 
-    /// Those on the edge of a hill may hit or miss.
+    /// The number of right answers. Rays on the edge of a hill may hit or miss.
     pub fn right(&self) -> usize {
         self.count(Verdict::Right) + self.count(Verdict::Grazes)
     }
@@ -125,7 +125,7 @@ impl Marched {
         self.0.iter().map(|march| march.steps).sum::<f64>() / self.0.len() as f64
     }
 
-    /// The middle one of the angles.
+    /// The median of the angles.
     pub fn angle(&self) -> f64 {
         let mut angles: Vec<f64> = self.0.iter().filter_map(|march| march.angle).collect();
         angles.sort_by(f64::total_cmp);
@@ -138,7 +138,7 @@ impl Marched {
         steps / f64::max(count, 1.0)
     }
 
-    /// Number of hits that are off by more than a thousandth of t, or should not be, or are missing: errors to be seen.
+    /// The number of hits that are false, missing, or off by more than a thousandth of t: visible errors.
     pub fn visible(&self) -> usize {
         let seen = |march: &&March| match march.verdict {
             Verdict::Right | Verdict::Grazes => false,
@@ -151,8 +151,8 @@ impl Marched {
         self.0.iter().filter(seen).count()
     }
 
-    /// By how much t is off, relative, where there is a hit and the rung has one: the middle one, and one
-    /// of a hundred is farther off than the second.
+    /// The relative errors of t, where there is an exact hit and the rung has one: the median and the 99th
+    /// percentile.
     pub fn errors(&self) -> [f64; 2] {
         let error = |march: &March| Some((march.found? / march.exact? - 1.0).abs());
         let mut errors: Vec<f64> = self.0.iter().filter_map(error).collect();
@@ -204,7 +204,7 @@ impl fmt::Display for Row {
 }
 
 impl Row {
-    /// Its figures, each named after the row.
+    /// Its figures, each with the row's name as prefix.
     pub fn values(&self, row: &str) -> impl Iterator<Item = (String, Value)> {
         let Self { steps, right, visible, wrong, errors: [half, most] } = self;
         let first = [("steps", json!(steps)), ("right", json!(right)), ("visible", json!(visible))];
@@ -216,8 +216,8 @@ impl Row {
     }
 }
 
-/// Grey where there is nothing, blue to white for a millionth to all, magenta for a false hit, cyan for a
-/// lost one, green behind a hill.
+/// Grey if there is nothing, blue to white for a millionth to all, magenta for a false hit, cyan for a lost
+/// one, green behind a hill.
 fn color(march: &March) -> [f32; 4] {
     let error = match (march.found, march.exact) {
         (Some(found), Some(exact)) => (found / exact - 1.0).abs(),

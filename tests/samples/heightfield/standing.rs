@@ -1,4 +1,4 @@
-//! Pieces that stand on the ground: what is in front, and what throws its shadow where.
+//! Pieces on the ground: the visible surfaces, and their shadows.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use super::world::World;
 use super::{GROUND, HILLS, STEEP, chapter, land, scenes};
 use run::primary_hits::rays;
 
-/// A cube of a millimetre far away, one of a kilometre, and one of the chess set's size.
+/// A cube of a millimetre far away, one of a kilometre, and one the size of the chess set.
 #[test]
 fn a_model_from_a_file_stands_on_the_hill_whatever_its_size() {
     let folder = tempfile::tempdir().unwrap();
@@ -44,7 +44,7 @@ fn the_chess_set_stands_on_the_ground() {
             let Some(placed) = land::stand(landscape, piece, mesh) else {
                 continue;
             };
-            // Upright, above the place where it stood.
+            // Upright, above its former place.
             let by = placed.transform.translation - piece.transform.translation;
             assert!(
                 placed.transform.matrix3 == piece.transform.matrix3 && by.x == 0.0 && by.z == 0.0
@@ -57,14 +57,14 @@ fn the_chess_set_stands_on_the_ground() {
             });
             let (least, most) =
                 gaps.fold((f64::MAX, f64::MIN), |(a, b), gap| (a.min(gap), b.max(gap)));
-            // It touches the ground, and nothing of the foot is in the air.
+            // It touches the ground, and no part of the foot is in the air.
             assert!(most.abs() < 1e-5 && least > -0.6, "{least} {most}");
             highest = highest.max(placed.transform.translation.y);
             feet += 1;
         }
         println!("k = {}: {feet} pieces stand, the highest at {highest}", landscape.k);
         assert!(if landscape == HILLS { feet == 28 } else { feet < 28 && feet > 0 });
-        // The device has just those.
+        // The device uses the same transforms.
         let k = format!("steepness={}", landscape.k);
         let sets = [&k[..], "camera eye=8,70,1", "camera target=8,0,0"];
         let sets = [&sets[..], &["field of view=8", "show=hit"]].concat();
@@ -110,11 +110,11 @@ fn ground_and_pieces_hide_each_other() {
 #[test]
 fn shadows_fall_both_ways_and_no_ground_shades_itself() {
     let world = World::new();
-    // By the surface in the shadow and the surface that throws it.
+    // The number of pixels for each pair of shadowed surface and occluder.
     let mut seen = BTreeMap::<String, usize>::new();
     let (mut edges, mut facing_away, mut from_ground) = (0, 0, 0);
     let sun = |azimuth, elevation| Sun { azimuth, elevation, ..Sun::default() }.light().direction;
-    // The second sun is so low that hills reach hills; the third view is in the pond; the last sun stands
+    // The second sun is so low that hills shade hills; the third view is inside the pond; the last sun is
     // over the pieces.
     for (to_light, sets) in [
         (sun(270.0, 17.0), &["sun azimuth=270", "sun elevation=17"][..]),
@@ -132,7 +132,7 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
             let start = Vec3::new(x, y, z);
             let ray = Ray::from_f32(start.to_array(), to_light.to_array(), 0.0, 1e30);
             if on == "ground" {
-                // The start is above the ground by more than a height may be wrong.
+                // The start is higher above the ground than the error of the height.
                 let height = world.ground.height_above(&ray, 0.0);
                 assert!(height > world.ground.error, "{ray:?} {height}");
                 from_ground += 1;
@@ -140,7 +140,7 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
             let ground = world.ground.field.height(x.into(), z.into()).1;
             let faces = match on {
                 "ground" => DVec3::new(-ground[0], 1.0, -ground[1]).dot(ray.direction) > 1e-6,
-                // It is not known here which way its triangle faces; a lit one faces the sun.
+                // The orientation of its triangle is unknown here; a lit one faces the sun.
                 _ => visible > 0.0 || world.first(&ray).0 != -1.0,
             };
             if !faces {
@@ -167,7 +167,7 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
     assert!(edges < 20 && from_ground > 3000, "{edges} {from_ground}");
 }
 
-/// The instance of `show=hit`, in words.
+/// The name of an instance of `show=hit`.
 fn kind(instance: f32) -> &'static str {
     match instance {
         GROUND => "ground",

@@ -1,4 +1,4 @@
-//! The ground and the pieces on it, as the reference sees them.
+//! The reference's copy of the ground and the pieces on it.
 
 use common::scene::Scene;
 use reference::Ray;
@@ -9,7 +9,7 @@ use super::judged::Exact;
 use super::{GROUND, HILLS, land, scenes};
 use run::primary_hits::reference;
 
-/// The first surface on a ray, by `show=hit`.
+/// The first surface on a ray, in the form of `show=hit`.
 pub struct World {
     scene: ExactScene,
     standing: Vec<f32>,
@@ -24,7 +24,7 @@ impl World {
         Self { scene, standing, ground }
     }
 
-    /// Every surface that the ray meets, with its t.
+    /// All surfaces on the ray, with their t.
     fn met(&self, ray: &Ray) -> Vec<(f32, f64)> {
         let piece = self.scene.closest_hit(ray, |_| true);
         let piece = piece.map(|hit| (self.standing[hit.instance as usize], hit.t));
@@ -37,8 +37,8 @@ impl World {
         met.unwrap_or((-1.0, 0.0))
     }
 
-    /// Tests whether rounding decides which surface the ray meets first: at the outline of a piece or of a hill, or
-    /// where two surfaces are in one place.
+    /// Returns whether rounding decides which surface the ray hits first: at the outline of a piece or of a
+    /// hill, or where two surfaces coincide.
     pub fn is_close(&self, ray: &Ray) -> bool {
         let near = self.scene.near_candidates(ray);
         if near.iter().any(|near| near.may_hit(ray) && !near.must_hit(ray)) {
@@ -53,7 +53,7 @@ impl World {
     }
 }
 
-/// The chess set on the ground, as the reference sees it, and which of the pieces stand.
+/// The reference's copy of the chess set on the ground, and the pieces that stand.
 fn pieces(landscape: Landscape) -> (ExactScene, Vec<f32>) {
     let mut scene = scenes::chess().unwrap();
     let Scene { model, instances, .. } = &mut scene;

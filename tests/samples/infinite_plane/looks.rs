@@ -1,4 +1,4 @@
-//! The plane looked at: its two sides, and what stands on and above it.
+//! The look of the plane: its two sides, and the objects on and above it.
 
 use common::scene::Camera;
 use glam::DVec3;
@@ -26,11 +26,11 @@ fn inside_and_outside_are_told_apart() {
     assert!(outside == 0 && inside > 3000, "{outside} {inside}");
     assert_eq!(seen(&[below, "inverse=on"]), (inside, 0));
     assert_eq!(seen(&[below, "inside=through"]), (0, 0));
-    // Whichever side is the inside, the surface is the same.
+    // The surface is the same, whichever side is the inside.
     let [plain, inverse] =
         ["inverse=off", "inverse=on"].map(|set| model.picture(&["preset=pov", set]));
     assert_eq!(bits(&plain), bits(&inverse));
-    // The same plane by a point of it.
+    // The same plane, given by a point of it.
     let look = ["camera eye=1,3,4", "camera target=0,0,0"];
     let distance = [&look[..], &["plane distance=0.5"]].concat();
     let point = [&look[..], &["plane form=point and normal", "plane point=7,0.5,-3"]].concat();
@@ -55,7 +55,7 @@ fn the_four_spheres_are_where_they_should_be() {
     let camera = Camera::new(eye, DVec3::ZERO, 90.0);
     let mut seen = [0; 6];
     for (index, (ray, hit)) in rays(&camera, &directions).zip(&hits.pixels).enumerate() {
-        // The window is 20 by 20 through the origin: pixel by pixel, the ray goes where it says.
+        // The window is 20 by 20 around the origin: each pixel's ray passes through the expected point.
         let (column, row) = (index % 150, index / 150);
         let window =
             DVec3::new((75.0 - column as f64 - 0.5) / 7.5, (75.0 - row as f64 - 0.5) / 7.5, 0.0);
@@ -68,7 +68,7 @@ fn the_four_spheres_are_where_they_should_be() {
         let nearest = nearest.chain(plane).min_by(|a, b| a.0.total_cmp(&b.0));
         let (t, expected) = nearest.unwrap_or((0.0, -1.0));
         if expected != hit[0] {
-            // The balls are of triangles: at the silhouette less than 1/2000 of the radius is missing.
+            // The balls are made of triangles: less than 1/2000 of the radius is missing at the silhouette.
             let nearly = spheres.iter().any(|sphere| {
                 let to = sphere.center - ray.origin;
                 let impact = to.cross(ray.direction).length() / ray.direction.length();

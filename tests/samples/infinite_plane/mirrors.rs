@@ -1,4 +1,4 @@
-//! Reflections in the plane, and of the plane in mirrors.
+//! Reflections in the plane, and reflections of the plane in mirrors.
 
 use common::app::Picture;
 use common::scene::Camera;
@@ -9,12 +9,12 @@ use reference::ulp::ulp_error;
 use super::{Octahedron, PLANE, chapter, level, pieces};
 use run::primary_hits::rays;
 
-/// The eye of the board preset, and its image in the plane.
+/// The eye of the board preset, and its mirror image in the plane.
 const EYE: [&str; 2] = ["camera eye=-3.4,1.6,7.2", "camera target=0.6,0.62,0"];
 const IMAGE: [&str; 2] = ["camera eye=-3.4,-1.6,7.2", "camera target=0.6,-0.62,0"];
 
-/// Holds every hit of a view of the board preset to the exact one; tells how many are on the plane and
-/// on pieces. Rays that come from below pass the plane.
+/// Compares every hit of a view of the board preset with the exact one; returns the numbers of hits on the
+/// plane and on pieces. Rays from below pass through the plane.
 fn hits_are_exact(exact: &reference::scene::Scene, sets: &[&str], sign: f64) -> [usize; 2] {
     let show = |view| chapter().sets(sets).sets(&[view]).picture();
     let (hits, directions) = (show("show=hit"), show("show=ray direction"));
@@ -31,7 +31,7 @@ fn hits_are_exact(exact: &reference::scene::Scene, sets: &[&str], sign: f64) -> 
             (None, None) => None,
         };
         if first_of_both.unwrap_or(-1.0) != hit[0] {
-            // Excused where an edge is grazed, or where a piece's foot and the plane are one.
+            // Excused where an edge is grazed, or where a piece's foot and the plane coincide.
             let near = exact.near_candidates(&ray);
             let foot = plane.is_some_and(|plane| {
                 near.iter().any(|near| (near.hit.t - plane.t).abs() <= near.t_bound)
@@ -65,7 +65,7 @@ fn the_plane_mirrors_the_pieces() {
     let [of_plane, of_pieces] = hits_are_exact(&exact, &image, -1.0);
     assert!(of_plane == 0 && of_pieces > 1000, "{of_plane} {of_pieces}");
 
-    // A plane that only mirrors shows the view of the eye's mirror image.
+    // A plane that only mirrors shows the view from the mirrored eye.
     let mirror = [
         "plane reflection=1",
         "plane specular=0",
@@ -95,7 +95,7 @@ fn the_plane_mirrors_the_pieces() {
 
 #[test]
 fn what_mirrors_mirrors_the_plane() {
-    // Seen from below the plane: its underside shines in squares, and nothing stands above it.
+    // Seen from below: the plane's underside shines in squares, and nothing is visible above it.
     let model = Octahedron::new(&[Vec3::Y]);
     let sets = [
         "plane distance=3",
@@ -105,7 +105,7 @@ fn what_mirrors_mirrors_the_plane() {
         "camera eye=-1,1.4,2.4",
         "camera target=0,1,0",
     ];
-    // A mirrored ray starts where the shadow ray of the same hit does.
+    // A reflected ray starts where the shadow ray of the same hit does.
     let show = |more: &[&str]| model.picture(&[&sets[..], more].concat());
     let [once, twice] = ["depth=0", "depth=1"].map(|depth| show(&[depth]));
     let [hits, normals, starts, directions] = ["hit", "normal", "shadow origin", "ray direction"]

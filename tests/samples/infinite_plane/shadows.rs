@@ -1,4 +1,4 @@
-//! Shadows on the plane and of it; and that no ray meets the plane that it leaves.
+//! Shadows on the plane and cast by it; no ray hits the plane that it leaves.
 
 use common::scene::Sun;
 use glam::Vec3;
@@ -8,7 +8,7 @@ use super::{Octahedron, PLANE, chapter, pieces};
 
 #[test]
 fn no_ray_meets_the_plane_that_it_leaves() {
-    // Tilted and far from the world's origin, the points of a plane lie beside it by rounding.
+    // Far from the world's origin, the points of a tilted plane are off it by rounding.
     let model = Octahedron::out_of_sight();
     let black = ["plane specular=0", "light squares=0,0,0", "dark squares=0,0,0", "depth=1"];
     let near = ["plane distance=1", "camera eye=6.3,2.9,6.1", "camera target=0,0.5,0"];
@@ -60,7 +60,7 @@ fn pieces_throw_shadows_on_the_plane() {
 
 #[test]
 fn the_plane_throws_its_shadow_on_what_is_below() {
-    // An octahedron, the plane above it, and the eye below that.
+    // An octahedron, the plane above it, and the eye below the plane.
     let model = Octahedron::new(&[Vec3::Y]);
     let above = ["plane distance=3", "camera eye=-1,1.4,2.4", "camera target=0,1,0"];
     let hits = model.picture(&[&above[..], &["show=hit"]].concat());
@@ -72,10 +72,10 @@ fn the_plane_throws_its_shadow_on_what_is_below() {
         on_it.filter(|(seen, _)| seen[3] > 0.0).count()
     };
     assert_eq!(lit(&[]), 0);
-    // A lamp below the plane is not kept off by it.
+    // The plane does not block a lamp below it.
     assert!(lit(&["light=point", "lamp position=-3,2,3"]) > 1000);
     assert_eq!(lit(&["light=point", "lamp position=-3,3.5,3"]), 0);
-    // Where rays pass from inside to outside, those to the light do so too.
+    // If rays pass from inside to outside, so do shadow rays.
     assert!(lit(&["inside=through"]) > 1000);
     assert_eq!(lit(&["inside=through", "inverse=on"]), 0);
 }

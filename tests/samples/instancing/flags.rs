@@ -1,4 +1,4 @@
-//! Masks and flags: which rays see a piece, from which side, and whether it is cut.
+//! Masks and flags: the rays that see a piece, the visible side, and the cuts.
 
 use reference::hit::Hit;
 
@@ -27,13 +27,13 @@ fn a_mask_hides_from_the_camera_and_keeps_the_shadow() {
             let verdict = viewed.exact.judge(ray, answer(hit), is_seen);
             assert!(verdict.is_allowed(), "{sees}: {verdict:?}");
         }
-        // Where the same is seen as before, it lies in the same shadow.
+        // A pixel with the same surface as before is in the same shadow.
         let hits: Vec<_> = hits.iter().map(|(_, hit)| hit.map(f32::to_bits)).collect();
         let same: Vec<_> = (0..hits.len()).filter(|&i| hits[i][..3] == all[i][..3]).collect();
         let shadows = shadows(&sets);
         assert!(same.len() > 5000 && same.iter().all(|&i| shadows[i] == all_shadows[i]));
     }
-    // And without their shadows, more is lit, and nothing is darker.
+    // And without their shadows more is lit, and nothing is darker.
     let lit = |set: &str| {
         chapter().sets(&FEW).sets(&[set, "camera sees=the board", "show=shadow"]).picture()
     };
@@ -47,7 +47,7 @@ fn a_mask_hides_from_the_camera_and_keeps_the_shadow() {
 #[test]
 fn facing_is_the_mesh_s_own_unless_a_flag_flips_it() {
     let flags = ["none", "facing cull disable", "flip facing"];
-    // Mirrored and sheared pieces, of which no flag is asked; and pieces that are only turned.
+    // Mirrored and sheared pieces without flags; and pieces that are only rotated.
     let scenes = [
         (ViewedScene::specimens(), &[SPECIMEN][..], &flags[..1]),
         (ViewedScene::few(), &FEW, &flags[..]),
@@ -73,7 +73,7 @@ fn facing_is_the_mesh_s_own_unless_a_flag_flips_it() {
                 pictures.push(hits);
             }
         }
-        // Closed pieces show their backs only where their fronts are culled.
+        // Closed pieces show their backs only if their fronts are culled.
         if let [back, back_off, back_flipped, front, front_off, front_flipped] = &pictures[..] {
             assert!(back == back_off && back != back_flipped);
             assert!(front != front_off && front_off == front_flipped);
@@ -88,7 +88,7 @@ fn no_opaque_lets_the_any_hit_shader_cut() {
     let (mut cut, mut doubtful) = (0, 0);
     let whole = viewed.hits(&FEW);
     for ((ray, hit), (_, before)) in viewed.hits(&sets).iter().zip(&whole) {
-        // Ten slices a unit, each six tenths thick, in the mesh's own space.
+        // Ten slices per unit, each six tenths thick, in the mesh's own space.
         let slice = |hit: &Hit| {
             let transform = viewed.transform(hit.instance as usize);
             let height = (transform.inverse * (ray.at(hit.t) - transform.translation)).y;
@@ -97,7 +97,7 @@ fn no_opaque_lets_the_any_hit_shader_cut() {
         let is_white = |hit: &Hit| viewed.pieces[hit.instance as usize].mask == WHITE;
         let keep = |hit: &Hit| !is_white(hit) || slice(hit) <= 0.6;
         if !viewed.exact.judge(ray, answer(hit), keep).is_allowed() {
-            // A hit so near a cut that rounding decides.
+            // A hit close enough to a cut that rounding decides.
             let near = viewed.exact.all_hits(ray).into_iter().any(|hit| {
                 let slice = slice(&hit);
                 is_white(&hit) && [0.0, 0.6, 1.0].iter().any(|cut| (slice - cut).abs() < 1e-4)

@@ -1,4 +1,4 @@
-//! Normals turned by each rung, held to the inverse transpose.
+//! Normals transformed by each rung, compared with the inverse transpose.
 
 use glam::Vec3;
 use reference::transform::U;
@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 
 use super::{SPECIMEN, ViewedScene, absolute};
 
-/// Errors of `normals` for the object-space normals whose bits the GPU wrote: for each pixel the piece, the sine of
-/// the error's angle, and the bound on it if the inverse was rounded once.
+/// The errors of `normals` for the object-space normals whose bits the GPU wrote: for each pixel the piece,
+/// the sine of the error's angle, and its bound if the inverse was rounded once.
 fn normal_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> {
     let show = |view| viewed.picture(&[&[SPECIMEN], sets, &[view]].concat());
     let (objects, worlds) = (show("show=object normal"), show("show=normal"));
@@ -20,7 +20,7 @@ fn normal_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> 
         let object = Vec3::new(x, y, z).as_dvec3();
         let exact = transform.inverse.transpose() * object;
         let world = Vec3::new(r, g, b).as_dvec3() * 2.0 - 1.0;
-        // The entry, the product and two sums; then normalising, and 0.5 + 0.5 n of the picture.
+        // The entry, the product and two sums; then normalizing, and 0.5 + 0.5 n of the picture.
         let strayed = absolute(transform.inverse).transpose() * object.abs() * 4.0;
         let bound = 1.01 * U * (strayed.length() / exact.length() + 2.0 * 3f64.sqrt());
         (index, exact.normalize().cross(world.normalize()).length(), bound)
@@ -28,7 +28,7 @@ fn normal_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> 
     errors.collect()
 }
 
-/// By how many degrees the normals of a sample's two inverses are off, at most; held to the bound.
+/// The largest errors, in degrees, of the normals by a sample's two inverses; compared with the bound.
 pub fn by_the_inverses(viewed: &ViewedScene, sets: &[&str]) -> Map<String, Value> {
     let mut table = Map::new();
     println!("| normals | off by, in degrees, at most |");
@@ -40,7 +40,7 @@ pub fn by_the_inverses(viewed: &ViewedScene, sets: &[&str]) -> Map<String, Value
         println!("| {normals} | {degrees:.1e} |");
         table.insert(normals.replace(' ', "-"), json!(degrees));
         assert!(errors.len() > 2000, "{}", errors.len());
-        // The specification says nothing of the device's, so nothing is asked of it.
+        // The specification does not bound the device's error, so it is not tested.
         if normals == "host inverse" {
             assert!(errors.iter().all(|(_, sine, bound)| sine <= bound), "{worst}");
         }
@@ -52,9 +52,9 @@ pub fn by_the_inverses(viewed: &ViewedScene, sets: &[&str]) -> Map<String, Value
 fn normals_turn_with_the_inverse_transpose() {
     let viewed = ViewedScene::specimens();
     expected::hold("09_instancing/normals", by_the_inverses(&viewed, &[]).into());
-    // By the matrix: right where it only turns and mirrors, wrong where it shears or stretches.
+    // By the matrix: right if it only rotates and mirrors, wrong if it shears or stretches.
     let first = viewed.pieces.len() - 6;
-    // Two only turned and mirrored, and four sheared or stretched.
+    // Two only rotated and mirrored, and four sheared or stretched.
     let mut most = [0f64; 6];
     for (index, sine, _) in normal_errors(&viewed, &["normals=matrix"]) {
         if let Some(knight) = index.checked_sub(first) {

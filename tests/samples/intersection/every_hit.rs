@@ -7,20 +7,20 @@ use reference::Ray;
 use super::reference_shapes::{Id, ReferenceShapes};
 use run::primary_hits::{answer, rays};
 
-/// A bound on the errors of a hit with a shape: of t, and of the shape's outline across the ray.
+/// An error bound of a hit with a shape: of t, and of the shape's outline across the ray.
 pub struct Bound {
     pub along: f64,
     pub across: f64,
 }
 
-/// Hits whose shape is the exact one, and the others, which the bounds explain.
+/// The hits whose shape is the exact one, and the others, which the bounds explain.
 #[derive(Default)]
 pub struct Hits {
     /// Ray, shape, t and exact t.
     pub same: Vec<(Ray, Id, f32, f64)>,
-    /// Number of rays that graze an outline.
+    /// The number of rays that graze an outline.
     pub outlines: usize,
-    /// Number of rays that find another surface at the same distance.
+    /// The number of rays that hit another surface at the same distance.
     pub ties: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The shapes in the form that the reference intersects.
+//! The shapes in the reference's form.
 
 use common::model::Model;
 use common::scene::{Instance, Scene};
@@ -9,7 +9,7 @@ use reference::sphere::Sphere;
 
 use super::shapes::{self, Shapes};
 
-/// A scene's shapes in the form that the reference intersects, by the ids that the shaders write.
+/// A scene's shapes in the reference's form, by the ids that the shaders write.
 pub struct ReferenceShapes {
     pub spheres: Vec<Sphere>,
     pub boxes: Vec<Aabb>,
@@ -21,7 +21,7 @@ pub struct ReferenceShapes {
 pub type Id = (u32, u32);
 
 impl ReferenceShapes {
-    /// The shapes that a chapter's scene makes for the chess set's model and pieces.
+    /// The shapes of a chapter's scene, made from the chess set's model and pieces.
     pub fn new(make: impl FnOnce(&Model, &[Instance]) -> Shapes) -> Self {
         let mut chess = Scene::chess().unwrap();
         chess.model.materials.extend(shapes::materials());
@@ -36,7 +36,7 @@ impl ReferenceShapes {
         }
     }
 
-    /// t of the hit with one shape, exact and then rounded to f64.
+    /// The t of the hit with one shape, exact and then rounded to f64.
     pub fn hit(&self, ray: &Ray, (instance, id): Id) -> Option<f64> {
         if instance == self.first {
             self.spheres[id as usize].intersect_exact(ray).map(|hit| hit.to_f64().t)
@@ -46,7 +46,7 @@ impl ReferenceShapes {
         }
     }
 
-    /// The shapes that a ray meets or passes within a hundredth of their size.
+    /// The shapes a ray hits or passes within a hundredth of their size.
     pub fn near(&self, ray: &Ray) -> Vec<Id> {
         let unit = ray.direction.normalize();
         let passes = |center: DVec3, radius: f64| {
@@ -67,7 +67,7 @@ impl ReferenceShapes {
         hits.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// A shape larger by `by` (or smaller, below 0) on every side.
+    /// A shape enlarged by `by` on every side (or reduced, if negative).
     pub fn grown(&self, ray: &Ray, (instance, id): Id, by: f64) -> Option<f64> {
         if instance == self.first {
             let Sphere { center, radius } = self.spheres[id as usize];

@@ -1,4 +1,4 @@
-//! The mean of many frames: the shader's recurrence, and the running sum that it replaces.
+//! The mean of many frames: the shader's recurrence, and the running sum it replaces.
 
 use common::app::Picture;
 
@@ -10,7 +10,7 @@ use run::{bits, expected, render};
 
 /// Frames after which the mean must still be right.
 const MANY: u32 = 100_000;
-/// Half the distance from 1 to the next float: what a rounded operation is off by, relatively.
+/// Half the distance from 1 to the next float: the relative error of a rounded operation.
 const U: f64 = 1.0 / (1u64 << 24) as f64;
 
 /// The shader's recurrence: the mean of `count` values and one more.
@@ -32,8 +32,8 @@ fn the_mean_on_the_device_is_this_recurrence() {
             for (count, value) in values.into_iter().enumerate() {
                 expected = add(expected, value, count as u32);
             }
-            // Vulkan grants a division 2.5 units in the last place: 5 of U for a difference of at most
-            // `most`, divided by 1 to 8; and either side rounds the sum, by U of `most` a frame.
+            // Vulkan allows a division an error of 2.5 ULP: 5 of U for a difference of at most `most`,
+            // divided by 1 to 8; and the sum is rounded in either direction, by U of `most` per frame.
             let divisions: f64 = (1..=8).map(|count| 5.0 / f64::from(count)).sum();
             let bound = (divisions + 2.0 * 8.0) * U * f64::from(most);
             let error = f64::from((mean - expected).abs());
@@ -58,15 +58,15 @@ fn on_the_device_a_thousand_equal_frames_are_one() {
     equal_frames_are_one(1000);
 }
 
-/// A running sum divided by its count fails here: in 32 bits a hundred times 0.1 is 10.000002, and a thousand times
-/// 99.99905.
+/// A running sum divided by its count fails here: in 32 bits, a hundred times 0.1 is 10.000002, and a
+/// thousand times 0.1 is 99.99905.
 fn equal_frames_are_one(frames: u32) {
     let one = render("02_basic", SMALL, &[]).picture;
     let mean = chapter(SMALL).frames(frames).sets(&["jitter=off"]).picture();
     assert_eq!(bits(&mean), bits(&one));
 }
 
-/// A mean in f32, by the recurrence; in f64, to compare with; and a running sum in f32.
+/// A mean in f32 by the recurrence; a mean in f64, to compare with; and a running sum in f32.
 #[derive(Default)]
 struct Means {
     count: u32,
@@ -84,8 +84,8 @@ impl Means {
         self.count += 1;
         self.sum += value;
         self.exact_sum += f64::from(value);
-        // The step's difference and quotient are rounded, then the mean; an error made at frame k has
-        // shrunk to k/n of itself at frame n.
+        // The step's difference and quotient are rounded, then the mean; an error made at frame k has shrunk
+        // to k/n of itself by frame n.
         let step = 2.0 * f64::from((value - before).abs()) * (1.0 + 2.0 * U);
         self.bound += U * (step + f64::from(self.count) * f64::from(self.mean.abs()));
     }
@@ -94,7 +94,7 @@ impl Means {
         self.exact_sum / f64::from(self.count)
     }
 
-    /// Relative errors of the sum and of the mean.
+    /// The relative errors of the sum and of the mean.
     fn errors(&self) -> [f64; 2] {
         let relative = |x: f64| (x / self.exact() - 1.0).abs();
         [relative(f64::from(self.sum) / f64::from(self.count)), relative(self.mean.into())]
@@ -139,7 +139,7 @@ fn the_mean_is_right_after_a_hundred_thousand_frames() {
             errors.insert(format!("{name}: {figure}").replace(' ', "-"), value.into());
         }
         assert!(mean <= bound, "{name}: {mean} above {bound}");
-        // Each frame's weight is positive, so that rounding cannot weigh more than n times U.
+        // Each frame's weight is positive, so that rounding contributes no more than n times U.
         assert!(bound <= f64::from(MANY) * U * 1.01, "{name}: the bound is {bound}");
         if name.starts_with("0.1, always") {
             assert_eq!(means.mean, 0.1, "equal frames have an exact mean");

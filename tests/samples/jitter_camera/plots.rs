@@ -85,7 +85,7 @@ fn errors() {
     let mut held = Map::new();
     for filter in FILTERS {
         let set = format!("filter={filter}");
-        // The same mean from points that reach it sooner.
+        // The same mean, from points that converge faster.
         let reference = ["--frames", "2048", "--set", &set];
         let reference = render("37_sequences", SIZE, &reference).picture;
         let errors = FRAMES

@@ -7,7 +7,7 @@ use super::{HIGH, RULES, SETTINGS, Setting, Tally, chapter};
 use run::expected;
 use run::plot::{Shown, draw_panels};
 
-/// The places as a label has room for them, in the order of [`SETTINGS`].
+/// The places, abbreviated for labels, in the order of [`SETTINGS`].
 const PLACES: [&str; 4] = ["0.001", "1", "1000", "moved"];
 
 #[test]

@@ -1,4 +1,4 @@
-//! Claims of the chapter about shutters, methods and poses.
+//! The chapter's claims about shutters, methods and poses.
 
 use common::app::Picture;
 use glam::{Quat, Vec3};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::shutter::{Between, Pose, between};
 use super::{NAME, chapter};
 
-/// A view of frame 932 in which 14's flag and its shadow are not.
+/// A view of frame 932 without 14's flag and its shadow.
 const VIEW: [&str; 4] =
     ["frame=932", "camera eye=-4,4.6,9", "camera target=-2.2,1.2,0", "field of view=20"];
 
@@ -47,7 +47,7 @@ fn it_is_its_parent(shows: &[&str]) {
     assert!(differs(&["shutter=0"]), "nothing turns");
 }
 
-/// Samples are all the same if nothing is under way, and so is their mean.
+/// All samples are equal if nothing moves, and so is their mean.
 #[test]
 fn a_board_at_rest_is_as_sharp_as_with_one_sample() {
     let [one, many] = ["samples=1", "samples=64"]
@@ -63,7 +63,7 @@ fn a_frame_is_the_same_bytes_whether_played_or_jumped_to() {
         let played = chapter("96x60").frames(5).sets(&sets("frame=930")).sets(&[method]).picture();
         assert!(bits(&jumped) == bits(&played), "{method}");
     }
-    // A hit that is refused must leave the accepted one as it was, in whatever order both come.
+    // A rejected hit must leave the accepted one unchanged, in whatever order the two come.
     for method in ["method=swept", "method=moments"] {
         let sets = [&sets("frame=934")[..], &[method]].concat();
         let [one, other] = [&[][..], &["--unordered"]]
@@ -75,13 +75,14 @@ fn a_frame_is_the_same_bytes_whether_played_or_jumped_to() {
     let [moments, swept] = ["method=moments", "method=swept"]
         .map(|method| chapter("240x150").sets(&one).sets(&[method]).picture());
     let differ = moments.pixels.iter().zip(&swept.pixels).filter(|(a, b)| a != b).count();
-    // Two triangle tests may differ at edges of shadows alone; llvmpipe's is that of the chapter.
+    // Two triangle tests may only differ at edges of shadows; llvmpipe's equals that of the chapter.
     let most =
         if device::is_software() { 8 } else { Near::of(NAME).both().flips(&moments) as usize };
     assert!(differ <= most, "{differ} pixels of {most}");
 }
 
-/// Halfway, the mean of two matrices is narrower by the cosine of half the angle, in both directions across the axis.
+/// Halfway, the mean of two matrices is narrower by the cosine of half the angle, in both directions
+/// perpendicular to the axis.
 #[test]
 fn mean_matrices_shrink_and_rotations_do_not() {
     let mut held = json!({});
@@ -108,7 +109,8 @@ fn mean_matrices_shrink_and_rotations_do_not() {
     expected::hold_exact("23_motion_blur/shrink", held);
 }
 
-/// In the picture of the middle moment: the knight is as large as it stands, and smaller by the mean of matrices.
+/// In the picture of the middle moment, the knight has its normal size, and is smaller with the mean of
+/// matrices.
 #[test]
 fn the_shrunken_knight_is_seen() {
     let area = |sets: &[&str]| {
@@ -122,7 +124,7 @@ fn the_shrunken_knight_is_seen() {
             ["between=rotation", "between=matrix"].map(|set| area(&[set, method, "moments=1"]));
         assert!(matrix < rotation && rotation > 100, "{method}: {matrix} of {rotation}");
     }
-    // One moment is the middle, by either method: the same triangles at the same places.
+    // A single moment is the middle one in both methods: the same triangles at the same places.
     let [swept, once] = ["method=swept", "method=moments"].map(|set| area(&[set, "moments=1"]));
     assert!(swept.abs_diff(once) <= 2, "{swept} {once}: more than rounding at an outline");
 }
@@ -131,7 +133,7 @@ fn counted(sets: &[&str]) -> Value {
     chapter("240x150").sets(sets).run().report["chapter"].clone()
 }
 
-/// Counts of both methods, in one frame of 16 samples.
+/// The counts of both methods, in one frame of 16 samples.
 #[test]
 fn methods_cost_what_is_counted() {
     let of = |method| counted(&["frame=934", "shutter=2", "count calls=on", method]);
@@ -141,7 +143,7 @@ fn methods_cost_what_is_counted() {
     }
     assert_eq!(moments["calls"], 0);
     assert!(swept["calls"].as_u64() > Some(100_000), "{swept}");
-    // Two are under way: each is there eight times, or once.
+    // Two objects move: each is included eight times, or once.
     assert_eq!(moments["instances"].as_u64(), swept["instances"].as_u64().map(|few| few + 14));
     assert!(swept["bottom_bytes"].as_u64() > moments["top_bytes"].as_u64());
     assert_eq!(moments["bottom_bytes"], 0);
@@ -154,7 +156,7 @@ fn methods_cost_what_is_counted() {
     expected::hold("23_motion_blur/costs", held);
 }
 
-/// With fewer moments than samples, the smear is a row of copies; errors fall as moments are added.
+/// With fewer moments than samples, the blur is a row of copies; errors fall as moments are added.
 #[test]
 #[ignore = "nightly: 1,024 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn moments_come_near_to_the_smear() {
@@ -174,7 +176,7 @@ fn moments_come_near_to_the_smear() {
     );
 }
 
-/// The root of the mean square, over the pixels where the exact one is neither 0 nor 1.
+/// The root of the mean square, over the pixels where the exact value is neither 0 nor 1.
 fn error(picture: &Picture, exact: &Picture) -> f64 {
     let pairs = picture.pixels.iter().zip(&exact.pixels);
     let squares: Vec<f64> = pairs
@@ -185,8 +187,8 @@ fn error(picture: &Picture, exact: &Picture) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
-/// Random times: the error falls with the root of the samples. In strata it falls as fast as they get more, for a
-/// pixel is wrong only where an edge passes within a stratum.
+/// With random times, the error falls with the root of the samples. With strata, it falls in proportion to
+/// them, because a pixel is only wrong where an edge passes within a stratum.
 #[test]
 #[ignore = "nightly: 2,048 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn strata_are_better_than_chance() {

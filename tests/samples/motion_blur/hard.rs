@@ -1,4 +1,4 @@
-//! A pawn that becomes a queen while the shutter is open, and turns of half a circle and nearly so.
+//! A pawn that becomes a queen while the shutter is open, and rotations by half a turn and nearly so.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::{chapter, legs};
 
 const METHODS: [&str; 2] = ["method=swept", "method=moments"];
 
-/// A pawn that goes two fields, lifted or pushed, and arrives in frame 34 as what `becomes` says.
+/// A pawn that moves two squares, lifted or pushed, and arrives in frame 34 as the piece `becomes`.
 fn promoted(folder: &Path, lift: u32, becomes: &str) -> String {
     let file = folder.join(format!("{becomes}{lift}.legs"));
     let text = format!(
@@ -25,8 +25,8 @@ fn seen(scene: &str, sets: &[&str]) -> Vec<[u32; 4]> {
     bits(&chapter("96x60").scene(scene).sets(sets).picture())
 }
 
-/// The shutter opens in the last frame of the way and closes after it: the pawn is not a queen yet, to the bit and in
-/// all that is seen. One frame later it is one, and stands.
+/// The shutter opens in the last frame of the move and closes after it: the pawn is not a queen yet, bit for
+/// bit and in every respect. One frame later it is one, and at rest.
 #[test]
 fn a_pawn_is_a_pawn_until_the_shutter_opens_upon_a_queen() {
     a_pawn_becomes_a_queen(&[2], &["show=picture"]);
@@ -55,7 +55,7 @@ fn a_pawn_becomes_a_queen(lifts: &[u32], shows: &[&str]) {
             assert!(pawn != queen, "lift {lift}, {method}: no queen");
         }
     }
-    // It is then as if it had always been one.
+    // From then on, it is as if it had always been one.
     let queen = promoted(folder.path(), 2, "queen");
     let stands = folder.path().join("stands.legs");
     std::fs::write(&stands, "last 60\npiece white queen 1 0 0.5\npiece black rook 3 0 0.5\n")
@@ -75,12 +75,12 @@ fn about(axis: Vec3, degrees: f64) -> Pose {
 }
 
 const AXES: [Vec3; 4] = [Vec3::Y, Vec3::X, Vec3::new(1.0, 2.0, -3.0), Vec3::new(-0.2, 1.0, 0.1)];
-/// Degrees around half a turn: the f32 of the cosine of half of them is 0, and a few units on either side.
+/// Degrees around half a turn: where the f32 cosine of half the angle is 0, and a few units on either side.
 const NEARLY: [f64; 9] =
     [170.0, 179.0, 179.99, 179.999_99, 180.0, 180.000_01, 180.01, 181.0, 190.0];
 
-/// Whatever sign its quaternion has, a turn goes the shorter way, evenly to a few percent, and never shrinks. At
-/// exactly half a turn both ways are as short, and one of them is taken.
+/// A rotation takes the shorter way for either sign of its quaternion, evenly to a few percent, and never
+/// shrinks. At exactly half a turn both ways are equally long, and it takes one of them.
 #[test]
 fn half_a_turn_goes_one_of_two_ways_and_less_goes_the_shorter() {
     for axis in AXES {
@@ -108,7 +108,7 @@ fn halfway(ends: [Pose; 2], axis: Vec3, degrees: f64, what: &str) {
         let size = matrix.determinant();
         assert!((size - 1.0).abs() < 4e-6, "{what}: {size} at {part}");
     }
-    // Both ends are what they were, whichever sign they are written with.
+    // Both ends are unchanged, with whichever sign they are written.
     for (part, end) in [(0.0, ends[0]), (1.0, ends[1])] {
         let end = Quat::from_mat3a(&at(part)).dot(end.rotation).abs();
         assert!((end - 1.0).abs() < 1e-6, "{what}: {end}");
@@ -124,17 +124,17 @@ fn halfway(ends: [Pose; 2], axis: Vec3, degrees: f64, what: &str) {
     }
 }
 
-/// No setting of the controls lets the shutter see half a turn: the way there would be the wrong one.
+/// No setting of the controls shows the shutter half a turn, which might go the wrong way.
 #[test]
 fn no_control_asks_for_half_a_turn() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("knight.legs");
     std::fs::write(&file, "last 60\npiece white knight -2 0 0.5\nleg 0 0 2 0 0.5 2\n").unwrap();
     let motion: Motion = legs::open(&file).unwrap();
-    // The most that the controls offer.
+    // The maximum of the controls.
     let (turns, shutter) = (3, 2.0);
     let yaw = |time: f64| f64::from(motion.at(time, turns).next().unwrap().yaw);
-    // Where it arrives it has turned whole circles, and is said to have turned none.
+    // Where it arrives, it has turned by whole circles, and is recorded as not turned.
     let circles = 360.0 * f64::from(turns);
     let times = (0..4 * UNDER_WAY).map(|quarter| f64::from(quarter) / 4.0);
     let ways = times.map(|time| yaw(time + shutter) - yaw(time));
@@ -142,7 +142,8 @@ fn no_control_asks_for_half_a_turn() {
     assert!(most > 150.0 && most < 170.0, "{most} degrees");
 }
 
-/// The shader's own poses and boxes, at half a turn: a rotation at every time, that moves each corner within its box.
+/// The shader's own poses and boxes at half a turn: a rotation at every time, with each vertex inside its
+/// box.
 #[test]
 fn the_box_of_half_a_turn_holds_its_arc() {
     let shader = |file: &str| {
@@ -157,7 +158,7 @@ fn the_box_of_half_a_turn_holds_its_arc() {
     let own = own.replace("sweep.margin", "0.0");
     let quaternion = |[x, y, z, w]: [f32; 4]| format!("vec4({x:?}, {y:?}, {z:?}, {w:?})");
     let mut pairs = Vec::new();
-    // The first ones stay in their place, where a corner's arc comes as near to its box as the box allows.
+    // From a start at 0 degrees, a vertex's arc comes as close to its box as possible.
     for start in [0.0, 140.0] {
         for axis in AXES {
             for degrees in NEARLY {
@@ -175,7 +176,7 @@ fn the_box_of_half_a_turn_holds_its_arc() {
         all.collect::<Vec<_>>().join(", ")
     };
     let (count, opens, closes) = (pairs.len(), list(0), list(1));
-    // Its buffer of movers is behind an address that Rust does not know here.
+    // Its buffer of moving objects is behind an address that is unknown to Rust here.
     let mover = shader("mover.glsl");
     let mover: String = mover
         .lines()
@@ -189,7 +190,8 @@ fn the_box_of_half_a_turn_holds_its_arc() {
          const vec4 OPENS[{count}] = vec4[]({opens});
          const vec4 CLOSES[{count}] = vec4[]({closes});"
     );
-    // A column a time, a row a turn: how far the farthest corner leaves its box, and what becomes of a volume.
+    // One column per time, one row per turn: the largest distance of a vertex outside its box, and the change
+    // of a volume.
     let body = "
         vec3 way = at.y < OPENS.length() / 2 ? vec3(0.0) : vec3(0.5, 0.0, -1.0);
         vec3 place = vec3(1.0, 2.0, 3.0);
@@ -209,12 +211,12 @@ fn the_box_of_half_a_turn_holds_its_arc() {
     for (i, &[outside, volume, height, _]) in found.pixels.iter().enumerate() {
         let (time, turn) = (i % 65, i / 65);
         assert!(outside <= 0.0, "turn {turn} at {time}/64 leaves its box by {outside}");
-        // A quaternion's components and products, a few roundings each.
+        // A quaternion's components and products, each with a few roundings.
         assert!((volume - 1.0).abs() < 4e-6, "turn {turn} at {time}/64: {volume}");
-        // Half a turn's arc leaves its chord by half of it: no box is larger than three of the shape.
+        // Half a turn's arc is off its chord by half of it, so no box is larger than three times the shape.
         assert!(height < 6.0, "turn {turn}: a box {height} high");
         nearest = nearest.max(outside);
     }
-    // The margin, 64 roundings of about 8, is all that is left there.
+    // The remaining margin is 64 roundings of about 8.
     assert!(nearest > -1e-4, "{nearest}: no arc comes near to its box, so nothing was held");
 }

@@ -1,4 +1,5 @@
-//! Time for which each pixel sees a moving object: a ball by its closed form, a turning knight at 1,024 times.
+//! The time for which each pixel sees a moving object: a ball by its closed form, a turning knight at 1,024
+//! times.
 
 use std::f64::consts::PI;
 
@@ -20,12 +21,12 @@ fn camera() -> Camera {
     Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.35, -0.6), 38.5)
 }
 
-/// The only piece, when the shutter opens at a frame and when it closes.
+/// The only piece, when the shutter opens in a frame and when it closes.
 fn ends(motion: &Motion, frame: u32) -> [Placed; 2] {
     [0.0, SHUTTER].map(|after| motion.at(f64::from(frame) + after, 1).next().unwrap())
 }
 
-/// The rays of all pixels, and what part of the shutter's time each has seen what is under way.
+/// The rays of all pixels, and the fraction of the shutter's time for which each sees the moving object.
 fn seen(file: &str, size: &str, sets: &[&str]) -> (Vec<(DVec3, DVec3)>, Vec<f64>) {
     let of = |show: &str| -> Picture {
         chapter(size).scene(file).sets(&["shutter=2", show]).sets(sets).picture()
@@ -40,8 +41,8 @@ fn seen(file: &str, size: &str, sets: &[&str]) -> (Vec<(DVec3, DVec3)>, Vec<f64>
     (rays.collect(), smear)
 }
 
-/// The part of the time from 0 to 1 in which a line meets a ball that moves by `way`: that where |(o - c)×d| is
-/// less than the radius times |d|, a quadratic in the time.
+/// The part of the time from 0 to 1 in which a line hits a ball that moves by `way`: that where |(o - c)×d|
+/// is less than the radius times |d|, a quadratic in the time.
 fn met((o, d): (DVec3, DVec3), center: DVec3, way: DVec3, radius: f64) -> f64 {
     let (from, by) = ((o - center).cross(d), -way.cross(d));
     let (a, b) = (by.length_squared(), from.dot(by));
@@ -55,8 +56,8 @@ fn met((o, d): (DVec3, DVec3), center: DVec3, way: DVec3, radius: f64) -> f64 {
     last - first
 }
 
-/// The ball is of triangles that lie between two spheres. So each pixel sees it for no less than the inner sphere,
-/// and no more than the outer one; and each end of that time may cost a sample.
+/// The ball is made of triangles between two spheres. So each pixel sees it for at least as long as the inner
+/// sphere, and at most as long as the outer one; each end of that time may cost a sample.
 #[test]
 fn the_smear_of_a_ball_is_its_closed_form() {
     smears_of_a_ball("192x120", 64);
@@ -68,12 +69,12 @@ fn so_it_is_by_more_samples() {
     expected::hold("23_motion_blur/ball", smears_of_a_ball("192x120", 256));
 }
 
-/// Holds a picture of each method to the closed form; returns how far they are off.
+/// Compares a picture of each method with the closed form; returns the differences.
 fn smears_of_a_ball(size: &str, samples: u32) -> Value {
     let file = run::root().join("tests/data/ball.legs");
     let motion = legs::open(&file).unwrap();
     let [open, close] = ends(&motion, 16).map(|placed| placed.place.as_dvec3() + BALL * DVec3::Y);
-    // Between two corners, along and around, lies half the angle of a cell.
+    // Between two vertices, along and around, is half the angle of a cell.
     let half = (PI / (2.0 * f64::from(ball::ROWS))).cos();
     let inner = BALL * half * half;
     let mut held = json!({});
@@ -105,12 +106,13 @@ fn smears_of_a_ball(size: &str, samples: u32) -> Value {
     held
 }
 
-/// Half the angle from one unit quaternion to the mix of two that are `half` apart.
+/// Half the angle from one unit quaternion to the mix of two at an angle of `half`.
 fn mixed(half: f64, time: f64) -> f64 {
     (time * half.sin()).atan2(1.0 - time + time * half.cos())
 }
 
-/// A knight that flies and turns, against its triangles in 64 bits at 1,024 times, moved by a formula of its own.
+/// A knight that flies and turns, compared with its triangles in 64 bits at 1,024 times, moved by an
+/// independent formula.
 #[test]
 #[ignore = "nightly: 1,024 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn the_smear_of_a_knight_is_that_of_1024_times() {
@@ -138,7 +140,7 @@ fn the_smear_of_a_knight_is_that_of_1024_times() {
             let time = (f64::from(i) + 0.5) / f64::from(TIMES);
             let place = open.place.as_dvec3().lerp(close.place.as_dvec3(), time);
             let yaw = f64::from(open.yaw).to_radians() + 2.0 * mixed(half, time);
-            // The ray goes to the knight, and not the knight to the ray.
+            // The ray is transformed to the knight rather than the knight to the ray.
             let back = DQuat::from_rotation_y(-yaw);
             let (o, d) = (back * (o - place), back * d);
             let hit = triangles.iter().any(|&[a, b, c]| meets(o, d, a, b, c));
@@ -147,8 +149,8 @@ fn the_smear_of_a_knight_is_that_of_1024_times() {
             before = Some(hit);
         }
         let exact = f64::from(count) / f64::from(TIMES);
-        // Each edge is passed within a part of 1/1,024, where either count may err by one; and one that is passed
-        // and passed back within a part is seen by neither count for sure.
+        // Each edge is passed within a part of 1/1,024, where either count may be off by one; an edge passed
+        // twice within a part may be missed by both counts.
         let room = f64::from(2 * edges + 2) / f64::from(TIMES);
         assert!((seen - exact).abs() <= room, "{seen} {exact}: {edges} edges");
         largest = largest.max((seen - exact).abs());
@@ -168,7 +170,7 @@ fn the_smear_of_a_knight_is_that_of_1024_times() {
     );
 }
 
-/// Tests whether a ray meets a triangle (Möller and Trumbore 1997, which the shader does not use).
+/// Returns whether a ray hits a triangle (Möller and Trumbore 1997, which the shader does not use).
 fn meets(o: DVec3, d: DVec3, a: DVec3, b: DVec3, c: DVec3) -> bool {
     let (e1, e2) = (b - a, c - a);
     let p = d.cross(e2);

@@ -1,5 +1,6 @@
-//! The device's way, on a device of our own: the layer of `tests/samples/opacity_micromaps/layer` offers the
-//! extension, holds each structure to the rules, and tells what was built.
+//! The device's own implementation, on a simulated device: the layer in
+//! `tests/samples/opacity_micromaps/layer` adds the extension, checks each structure against the rules, and
+//! reports the builds.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +16,7 @@ use super::alpha::Alpha;
 use super::classify::{self, Rule};
 use super::{BEFORE, BEHIND, NAME, PARENT, SIZE, curve};
 
-/// The layer's messages to a run, and the run's output.
+/// The layer's messages about a run, and the run's output.
 struct Told {
     picture: Picture,
     /// Lines by their first word.
@@ -28,7 +29,7 @@ impl Told {
         self.lines.get(word).map_or(&[], Vec::as_slice)
     }
 
-    /// Level and states of each micromap, in the order of the builds.
+    /// The level and states of each micromap, in the order of the builds.
     fn micromaps(&self) -> Vec<(u32, Vec<u8>)> {
         let read = |line: &String| {
             let (level, states) = line.split_once(' ').unwrap();
@@ -39,16 +40,17 @@ impl Told {
     }
 }
 
-/// Tests whether the layer can read what a device would: on the software driver, whose addresses are the host's.
+/// Returns whether the layer can read a device's memory: on the software driver, whose addresses are the
+/// host's.
 fn has_layer() -> bool {
     run::device::is_software()
 }
 
-/// A run where micromaps go up to level `finest`.
+/// A run with micromaps up to level `finest`.
 fn told(finest: u32, arguments: &[&str]) -> Told {
     let folder = tempfile::tempdir().unwrap();
     let [file, out] = ["told", "out.exr"].map(|name| folder.path().join(name));
-    // The validation layer of Debian 12 knows none of the structures, so it is not asked.
+    // The validation layer of Debian 12 knows none of the structures, so it is disabled.
     let output = Layer::micromaps(&format!("level={finest},tell={}", file.display()))
         .command(NAME)
         .args(["--headless", "--size", SIZE, "--out", out.to_str().unwrap()])
@@ -78,8 +80,8 @@ fn packed(mesh: &Mesh, texture: &Texture, level: u32, rule: Rule) -> Vec<u8> {
     mesh.triangles.iter().flat_map(of).collect()
 }
 
-/// Holds what a bottom level names against its mesh: each primitive has the states of the triangle that it is.
-/// Returns how many primitives there are.
+/// Compares the micromap indices of a bottom level with its mesh: each primitive has the states of its own
+/// triangle. Returns the number of primitives.
 fn names_its_own(line: &str, mesh: &Mesh) -> usize {
     let (corners, indices) = line.split_once(' ').unwrap();
     let numbers =
@@ -164,13 +166,13 @@ fn where_it_is_not_asked_for_nothing_is_built_for_the_device() {
     assert_eq!(shader.lines.keys().collect::<Vec<_>>(), ["alive"]);
     let none = told(6, &set_arguments(&["level=none", "way=device"]));
     assert_eq!(none.lines.keys().collect::<Vec<_>>(), ["alive"]);
-    // The states are shown by the scene's own bottom levels: a device passes through transparent parts.
+    // The scene's own bottom levels show the states: a device skips transparent parts.
     let device = told(6, &set_arguments(&[&sets[..], &["way=device"]].concat()));
     assert_eq!(device.of("pipeline"), [""; 0]);
     same_colors("states", NAME, &device.picture, &shader.picture);
 }
 
-/// Two meshes with holes and one without; of five triangles, whose states at level 0 fill no whole word.
+/// Two meshes with holes and one without; with five triangles, whose states at level 0 fill no whole word.
 fn three_meshes(folder: &Path) -> String {
     let mut obj = String::from("mtllib m.mtl\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.3 0.7\n");
     for (material, first) in [("a", 0), ("plain", 5), ("b", 10)] {
@@ -218,7 +220,7 @@ fn each_mesh_with_holes_has_a_micromap_of_its_own() {
     }
 }
 
-/// The worst driver offers each triangle twice: so do the bottom levels with micromaps.
+/// The worst driver has each triangle twice, and so do the bottom levels with micromaps.
 #[test]
 fn a_triangle_that_is_offered_twice_has_its_states_twice() {
     if !has_layer() || !run::has_worst_arithmetic() {

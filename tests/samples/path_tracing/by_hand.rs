@@ -7,7 +7,7 @@ use run::{evaluate, expected};
 /// Heights of four directions above level ground: one in the middle of each quarter.
 const HEIGHTS: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
-/// Towards +x, +z, -x and -z, so high: where the point under the sky looks.
+/// Towards +x, +z, -x and -z at these heights: the directions in which the point under the sky looks.
 const BODY: &str = "float height = (float(at.x & 3) + 0.5) / 4.0;
     if (at.y == 1) { height = sqrt(height); }
     float aside = sqrt(1.0 - height * height);
@@ -24,7 +24,7 @@ fn four_directions_have_the_mean_that_the_page_computes_by_hand() {
         let [red, _, _, height] = pixel.map(f64::from);
         let (row, column) = (i / 4, i % 4);
         let even = HEIGHTS[column];
-        // Heights that are even; and those that are as likely as they are high.
+        // Evenly spaced heights; and heights with a density proportional to their cosine.
         let cosine = if row == 0 { even } else { even.sqrt() };
         assert!((height - cosine).abs() < 1e-6, "{i}: {height} not {cosine}");
         // The sky of shade.glsl, above the horizon: white and blue mixed by the root of the height.

@@ -1,4 +1,4 @@
-//! Scenes whose light is known without a path.
+//! Scenes whose light has a closed form.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use serde_json::json;
 use super::{Estimate, brightness, chapter, picture_by_chance};
 use run::{bits, expected};
 
-/// The square that shines, in the scene of each name.
+/// The luminous square in the scene of each name.
 pub const SQUARES: [(&str, [DVec3; 4]); 2] = [
     (
         "parallel squares",
@@ -30,7 +30,7 @@ pub const SQUARES: [(&str, [DVec3; 4]); 2] = [
     ),
 ];
 
-/// The part of the half-space above a point of the white square, weighed by the cosine, that a polygon fills: the
+/// The cosine-weighted fraction of the half-space above a point of the white square that a polygon fills: the
 /// closed form of Lambert (Photometria, 1760), a sum over its edges.
 pub fn form_factor(point: DVec3, polygon: &[DVec3; 4]) -> f64 {
     let to = polygon.map(|corner| (corner - point).normalize());
@@ -42,15 +42,15 @@ pub fn form_factor(point: DVec3, polygon: &[DVec3; 4]) -> f64 {
     (edges.sum::<f64>() / (2.0 * PI)).abs()
 }
 
-/// The same of each pixel of a picture `side` pixels wide, which shows the white square whole.
+/// The same for each pixel of a picture of `side` pixels that shows the whole white square.
 pub fn form_factors(side: u32, polygon: &[DVec3; 4]) -> Vec<f64> {
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
     let pixels = (0..side * side).map(|i| DVec3::new(place(i % side), -place(i / side), 0.0));
     pixels.map(|point| form_factor(point, polygon)).collect()
 }
 
-/// The form factors of the squares on each other: textbooks have them in closed form (Howell, A Catalog of
-/// Radiation Heat Transfer Configuration Factors, C-11 and C-14).
+/// The form factors between the squares, in the closed form of textbooks (Howell, A Catalog of Radiation Heat
+/// Transfer Configuration Factors, C-11 and C-14).
 pub fn catalogued() -> [f64; 2] {
     let root = 2f64.sqrt();
     let parallel = (2.0 / PI)
@@ -78,13 +78,13 @@ fn squares_light_each_other_as_their_form_factors_say() {
         let scene = format!("scene={name}");
         let shown = brightness(&picture_by_chance("64x64", FRAMES, &[&scene]));
         let factors = form_factors(SIDE, square);
-        // Each sample is a toss of a coin: it meets the shining square or not.
+        // Each sample is a coin toss: it hits the luminous square or not.
         let variance = |p: f64| p * (1.0 - p) / f64::from(FRAMES);
         let count = factors.len() as f64;
         let scores = shown.iter().zip(&factors).map(|(s, &p)| (s - p).powi(2) / variance(p));
         let mean_score = scores.sum::<f64>() / count;
         println!("{name}: mean square of the pixels' scores {mean_score:.4}");
-        // The square of a score has a mean of 1 and a variance of about 2.
+        // The square of a score has mean 1 and variance about 2.
         assert!((mean_score - 1.0).abs() < 4.0 * (2.0 / count).sqrt(), "{name}: {mean_score}");
         let mean = shown.iter().sum::<f64>() / count;
         let confidence = 4.0 * (factors.iter().map(|&p| variance(p)).sum::<f64>()).sqrt() / count;
@@ -99,10 +99,10 @@ fn squares_light_each_other_as_their_form_factors_say() {
 fn a_white_furnace_is_its_sky() {
     let sets = ["scene=furnace", "depth=256", "roulette=off"];
     let shown = chapter("96x60").frames(4).sets(&sets).picture();
-    // Each path brings exactly 1, whichever way it takes: no chance, no rounding.
+    // Each path brings exactly 1, whatever way it takes: nothing is random or rounded.
     let grey = shown.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
     assert_eq!(grey, 0, "pixels of the furnace that are not white");
-    // They are long enough to see many turns.
+    // They are long enough for many bounces.
     let rays = chapter("96x60")
         .frames(1)
         .sets(&["scene=furnace", "depth=256", "roulette=off", "show=rays"])

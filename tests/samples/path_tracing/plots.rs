@@ -35,7 +35,7 @@ fn furnace() {
     draw_panels("11_furnace.png", 1, &[Shown::row(&[1, 2, 5, 256].map(show))]);
 }
 
-/// A maker of pictures, and the name of its paths' numbers.
+/// A function that renders a picture, and the name of its random numbers.
 type Numbers = (&'static str, fn(&str, u32, &[&str]) -> Picture);
 const NUMBERS: [Numbers; 2] = [
     ("random", picture_by_chance),
@@ -43,7 +43,7 @@ const NUMBERS: [Numbers; 2] = [
 ];
 const FRAMES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
 
-/// The error of a scene whose light is known, for each kind of numbers and number of samples.
+/// The error for a scene with known light, for each kind of random numbers and number of samples.
 fn curves(scene: &str, expected: &[f64]) -> [[f64; 6]; 2] {
     NUMBERS.map(|(_, picture)| {
         FRAMES.map(|frames| {
@@ -96,7 +96,8 @@ fn errors() {
                     names: vec![],
                 });
                 if *numbers == "random" {
-                    // 1024 pixels tell a deviation to within a twentieth, by four standard errors of it.
+                    // 1024 pixels determine a deviation to within a twentieth, which is four of its standard
+                    // errors.
                     for (frames, error) in FRAMES.iter().zip(curve).skip(1) {
                         let off = (error / theory(*frames) - 1.0).abs();
                         assert!(off < 0.15, "{name}, {frames} samples: {error} {off}");
@@ -110,7 +111,7 @@ fn errors() {
     expected::hold("11_path_tracing/errors", held.into());
 }
 
-/// The root of the mean square over that of the picture's own colours.
+/// The root mean square difference relative to the picture's own colours.
 fn relative(picture: &Picture, reference: &Picture) -> f64 {
     let squares: f64 = colors(reference).map(|c| c * c).sum();
     error(picture, reference) / (squares / (3 * reference.pixels.len()) as f64).sqrt()
@@ -121,7 +122,7 @@ const SMALL: &str = "96x60";
 #[test]
 #[ignore = "by hand: prints what stopping at a depth costs in error"]
 fn biases() {
-    // The random numbers are the same: pictures differ only by what was left out, not by chance.
+    // The random numbers are the same, so pictures differ only by the omission and not at random.
     let of = |sets: &[&str]| {
         chapter(SMALL).frames(64).sets(&["roulette=off", "depth=32"]).sets(sets).picture()
     };

@@ -1,4 +1,4 @@
-//! Light at a surface, from the shader's own functions.
+//! Light at a surface, computed by the shader's own functions.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,8 @@ use serde_json::json;
 use super::NAME;
 use run::{command, copy_of_shaders, expected, render_by};
 
-/// Results of this chapter's files, one per pixel: `body` sees the pixel as `uvec2 at` and sets `vec4 answer`.
+/// The results of this chapter's files, one per pixel: `body` reads the pixel from `uvec2 at` and sets `vec4
+/// answer`.
 fn evaluate(body: &str, size: &str) -> Picture {
     let folder = copy_of_shaders();
     let file = folder.path().join(NAME).join("camera.rgen");
@@ -25,7 +26,7 @@ fn evaluate(body: &str, size: &str) -> Picture {
 
 #[test]
 fn directions_are_as_likely_as_their_cosine() {
-    // A point of the square a pixel, and a normal that turns through all directions.
+    // One point of the square per pixel, and a normal that turns through all directions.
     let body = "vec2 u = (vec2(at) + 0.5) / 64.0;
         vec2 v = fract(vec2(at) * vec2(0.7548777, 0.5698403));
         float z = at == uvec2(0) ? -1.0 : at == uvec2(1) ? 1.0 : 2.0 * v.x - 1.0;
@@ -38,7 +39,8 @@ fn directions_are_as_likely_as_their_cosine() {
         let u = (f64::from(i as u32 % 64) + 0.5) / 64.0;
         let d = DVec3::new(pixel[0].into(), pixel[1].into(), pixel[2].into());
         assert!((d.length() - 1.0).abs() < 1e-6, "{d}");
-        // The part of all directions below a cosine c is c^2: 1 - u is uniform, and so is the cosine's square.
+        // The fraction of all directions below a cosine c is c^2: 1 - u is uniform, and so is the squared
+        // cosine.
         let cosine = f64::from(pixel[3]);
         assert!((cosine - (1.0 - u).sqrt()).abs() < 2e-6, "{i}: {cosine} {u}");
     }
@@ -46,7 +48,7 @@ fn directions_are_as_likely_as_their_cosine() {
 
 #[test]
 fn around_the_normal_no_direction_is_preferred() {
-    // In the frame of one normal each, the mean over a whole turn points along it.
+    // In the frame of one normal per pixel, the mean over a whole turn points along it.
     let body = "vec2 v = (vec2(at) + 0.5) / 16.0;
         float z = 2.0 * v.x - 1.0, r = sqrt(1.0 - z * z);
         vec3 n = vec3(r * cos(6.283185 * (v.y - 0.5)), r * sin(6.283185 * (v.y - 0.5)), z);
@@ -59,8 +61,8 @@ fn around_the_normal_no_direction_is_preferred() {
     }
 }
 
-/// The light that a polished surface scatters and mirrors of a white sky, by the midpoint rule over cosines:
-/// the shader's functions, every view and head-on reflectance.
+/// The light of a white sky that a polished surface scatters and reflects, by the midpoint rule over cosines,
+/// with the shader's functions, for every view and head-on reflectance.
 #[test]
 fn what_polish_does_not_mirror_it_scatters() {
     let body = "float to_eye = (at.x + 0.5) / 32.0, head_on = at.y / 16.0;
@@ -81,16 +83,16 @@ fn what_polish_does_not_mirror_it_scatters() {
     }
 }
 
-/// Reflection of light from all sides by a highlight, in f64: views from head on to grazing.
+/// Reflection of light from all sides by a highlight, in f64: views from head-on to grazing.
 #[test]
 fn a_highlight_creates_no_energy() {
-    // As `reflect_light` and `kept_of_highlight` have it, specular 1.
+    // As in `reflect_light` and `kept_of_highlight`, with specular 1.
     let kept = |n: f64| (n + 2.0) * (n + 4.0) / ((n + 8.0) * (n + (-0.5 * n).exp2()));
     let reflected = |n: f64, view: DVec3| {
         let steps = 400;
         let mut sum = 0.0;
         for i in 0..steps {
-            // Half vectors, by cosine to the power n + 1: few of them matter far from the normal.
+            // Half vectors with a density of the cosine to the power n + 1: few far from the normal matter.
             let u = (f64::from(i) + 0.5) / f64::from(steps);
             let cosine = u.powf(1.0 / (n + 1.0));
             let sine = (1.0 - cosine * cosine).sqrt();

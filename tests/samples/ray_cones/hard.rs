@@ -1,4 +1,4 @@
-//! Footprints that are no numbers, endless or nothing.
+//! Footprints that are NaN, infinite or zero.
 
 use common::app::Picture;
 
@@ -60,7 +60,7 @@ fn a_level_is_finite_whatever_the_cone_and_the_mapping() {
     all_good(&evaluate(&declared(), body, "144x144"));
 }
 
-/// A ray that is perpendicular to a triangle, and one along it.
+/// A ray perpendicular to a triangle, and one along it.
 #[test]
 fn an_ellipse_is_as_wide_as_the_cone_and_as_long_as_its_slant() {
     let body = "
@@ -72,14 +72,15 @@ fn an_ellipse_is_as_wide_as_the_cone_and_as_long_as_its_slant() {
     for (x, &[long, wide, dot, up]) in found.pixels.iter().enumerate() {
         let slant = (std::f64::consts::FRAC_PI_2 * x as f64 / 31.0).sin().max(1e-4);
         let ratio = f64::from(long) / (0.25 / slant);
-        // sin and cos are off by 2^-11 at most, which is a twentieth of the least slant but one.
+        // sin and cos are off by 2^-11 at most, a twentieth of the second smallest slant.
         assert!((ratio - 1.0).abs() < if x == 0 { 5.0 } else { 0.02 }, "{x}: {long}");
         assert!((wide - 0.25).abs() < 1e-6 && dot.abs() < 1e-4 * long, "{x}: {wide} {dot}");
         assert!(up.abs() <= 2e-3 * long, "{x}: {up}");
     }
 }
 
-/// Triangles whose mapping is none: squeezed to a point or a line, mirrored, huge, on a texture of odd sides.
+/// Triangles with a degenerate mapping: collapsed to a point or a line, mirrored, huge, on a texture with odd
+/// sides.
 #[test]
 fn a_model_of_degenerate_mappings_is_drawn_without_a_message() {
     let folder = tempfile::tempdir().unwrap();
@@ -99,7 +100,7 @@ fn a_model_of_degenerate_mappings_is_drawn_without_a_message() {
     let mut obj = String::from("mtllib odd.mtl\nusemtl odd\n");
     for (i, mapping) in mappings.iter().enumerate() {
         let x = i as f32;
-        // The last corner lies far away, so that the triangle is seen at every angle.
+        // The last vertex is far away, so that the triangle is seen at every angle.
         for [px, pz] in [[x, 0.0], [x + 0.9, 0.0], [x + 0.4, -40.0]] {
             obj += &format!("v {px} 0 {pz}\n");
         }

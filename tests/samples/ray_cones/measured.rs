@@ -1,4 +1,4 @@
-//! Distance of each footprint from the mean of 1,024 rays per pixel, its flicker, and its cost.
+//! The difference of each footprint from the mean of 1,024 rays per pixel, its flicker, and its cost.
 
 use common::app::Picture;
 use serde_json::{Map, Value};
@@ -8,10 +8,10 @@ use run::expected;
 
 const DISTANCES: [f64; 4] = [5.0, 20.0, 80.0, 320.0];
 const ANGLES: [f64; 3] = [90.0, 30.0, 10.0];
-/// Pixels that the camera moves from frame to frame, in each of so many frames.
+/// The camera's motion in pixels from frame to frame.
 const STEP: f64 = 0.3;
 const FRAMES: usize = 4;
-/// 32 times 32 rays a pixel, each in its own part of it, and no footprint: a box filter over the pixel.
+/// 32 by 32 rays per pixel, each in its own part of it, without a footprint: a box filter over the pixel.
 const TRUTH: [&str; 2] = ["footprint=point", "rays=32"];
 
 /// The root of the mean squared difference of two lists, over all pixels and colours.
@@ -81,7 +81,7 @@ fn error_and_flicker_by_distance_and_angle() {
     expected::hold("19_ray_cones/flicker", Value::Object(flicker));
 }
 
-/// Time of a frame relative to that with a point.
+/// The time of a frame relative to that with a point.
 #[test]
 #[ignore = "by hand: takes times"]
 fn time_by_distance_and_angle() {

@@ -1,4 +1,4 @@
-//! The levels that the device has made of a texture.
+//! The levels of a texture, as made by the device.
 
 use common::model::Texture;
 
@@ -10,7 +10,7 @@ fn linear(code: u8) -> f64 {
     if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
 }
 
-/// The mean over squares of `step` texels, of the light or of the codes.
+/// The mean over squares of `step` texels, of the light or of the encoded values.
 fn means(texture: &Texture, step: u32, value: fn(u8) -> f64) -> Vec<[f64; 3]> {
     let side = texture.width / step;
     let of = |i: u32| {
@@ -52,8 +52,8 @@ fn each_level_is_the_mean_of_the_light() {
         let found = level(number, side);
         let light = means(tiles, 1 << number, linear);
         let codes = means(tiles, 1 << number, |code| f64::from(code) / 255.0);
-        // Each level rounds to 8 bits, up or down. Two steps of the code, of at most 1/110 of the light each: set by
-        // llvmpipe (Mesa 25.0.7), which is off by less than one.
+        // Each level is rounded to 8 bits, up or down. Two steps of the encoding, each at most 1/110 of the
+        // light: set by llvmpipe (Mesa 25.0.7), which is off by less than one.
         let rounding = 2.0 / 110.0;
         let (mut most_off, mut most_wrong) = (0.0_f64, 0.0_f64);
         for ((found, light), code) in found.iter().zip(&light).zip(&codes) {
@@ -66,7 +66,7 @@ fn each_level_is_the_mean_of_the_light() {
             }
         }
         println!("level {number}: off by {most_off:.4}, the mean of codes by {most_wrong:.4}");
-        // The mean of codes would have been told from it.
+        // The mean of encoded values would have been detected.
         assert!(most_wrong > 2.0 * rounding, "level {number}: {most_wrong}");
     }
 }

@@ -1,4 +1,4 @@
-//! Price of a ray of 41_ray_offset: each part taken out in turn, on the clock and for GPUs' compilers.
+//! The cost of a ray of 41_ray_offset: each part removed in turn, measured by the clock and by GPU compilers.
 
 use run::{command, expected, shaders_with};
 use serde_json::{Map, Value};
@@ -6,8 +6,8 @@ use tempfile::TempDir;
 
 use super::NAME;
 
-/// A part, the file and the line that it stands in, and what stands there without it. The picture is another then, or
-/// none: it is not looked at.
+/// A part, its file and line, and the replacement without it. The picture then differs or is empty, which
+/// does not matter.
 const PARTS: [(&str, &str, &str, &str); 5] = [
     (
         "shadow ray",
@@ -39,7 +39,7 @@ const PARTS: [(&str, &str, &str, &str); 5] = [
 /// Generations of navi21, navi31 and gfx1201.
 const GENERATIONS: &str = "RDNA2, RDNA3, RDNA4";
 
-/// Report of a run, by a copy of the shaders if there is one.
+/// The report of a run, with a copy of the shaders if there is one.
 fn report(shaders: Option<&TempDir>, arguments: &[&str]) -> Value {
     let mut command = command(NAME);
     if let Some(folder) = shaders {
@@ -57,7 +57,7 @@ fn what_a_ray_pays_for() {
     let ways: Vec<Option<&TempDir>> =
         std::iter::once(None).chain(copies.iter().map(Option::as_ref)).collect();
     let time = |shaders| {
-        // As the model has them, triangles are the same with and without `original`.
+        // With the model in its original position, triangles are the same with and without `original`.
         let arguments = ["--headless", "--size", "480x300", "--frames", "5", "--unordered"];
         report(shaders, &arguments)["gpu_milliseconds"]["min"].as_f64().expect("a time")
     };

@@ -1,4 +1,4 @@
-//! Ambient occlusion on a plane beside a box, held to the closed form.
+//! Ambient occlusion on a plane next to a box, compared with the closed form.
 
 use common::app::Picture;
 use common::scene::Camera;
@@ -21,7 +21,7 @@ fn run_of(sets: &[&str], frames: u32) -> Run {
     chapter(SIZE).scene(scene).frames(frames).sets(&view).sets(sets).run()
 }
 
-/// The part of the sky that each pixel of the plane sees: its number, and the exact part.
+/// The fraction of the sky visible from each pixel of the plane: the pixel's number, and the exact value.
 fn exact() -> Vec<(usize, f64)> {
     let camera = Camera::new(DVec3::new(5.0, 4.0, 6.0), DVec3::new(0.0, 0.2, 0.0), 45.0);
     let show = |view| run_of(&[view, "occlusion rays=0"], 1).picture;
@@ -29,7 +29,7 @@ fn exact() -> Vec<(usize, f64)> {
     let pixels = rays(&camera, &directions).zip(&hits.pixels).enumerate();
     let plane = pixels.filter_map(|(pixel, (ray, hit))| {
         let point = ray.at(f64::from(answer(hit)?.t));
-        // The plane is what lies at no height; that is exact up to the rounding of t.
+        // The plane is where the height is 0, exact up to the rounding of t.
         (answer(hit)?.instance == 0).then(|| {
             assert!(point.y.abs() < 1e-4, "{point}");
             (pixel, 1.0 - standing_box(point.with_y(0.0), BOX[0], BOX[1]))
@@ -48,7 +48,7 @@ fn the_mean_of_many_rays_is_the_closed_form() {
     run::needs!(NAME);
     let pixels = exact();
     assert!(pixels.len() > 2000, "{}", pixels.len());
-    // With one ray a pixel each is open or not, and independent of its neighbours.
+    // With one ray per pixel, each pixel is open or not, independently of its neighbours.
     let picture = run_of(&["show=ambient occlusion", "occlusion rays=1"], 1).picture;
     let found: f64 = pixels.iter().map(|&(pixel, _)| f64::from(picture.pixels[pixel][0])).sum();
     let expected: f64 = pixels.iter().map(|(_, open)| open).sum();
@@ -56,7 +56,7 @@ fn the_mean_of_many_rays_is_the_closed_form() {
     let off = (found - expected) / deviation;
     println!("{} pixels, {found} open, {expected} expected: {off} deviations", pixels.len());
     assert!(off.abs() < 3.0, "{found} of {expected}: {off} standard deviations");
-    // The same beside the box alone, where most is hidden.
+    // The same only next to the box, where most of the sky is hidden.
     let dark: Vec<_> = pixels.iter().copied().filter(|(_, open)| *open < 0.7).collect();
     let found: f64 = dark.iter().map(|&(pixel, _)| f64::from(picture.pixels[pixel][0])).sum();
     let expected: f64 = dark.iter().map(|(_, open)| open).sum();
@@ -78,7 +78,7 @@ fn the_error_falls_faster_than_by_the_root_of_the_rays() {
         let error = root_mean_square(&pixels, &run.picture);
         let independent = one / f64::from(count).sqrt();
         println!("{count}: {error:.5}, independent {independent:.5}");
-        // The points of a spiral keep apart, and so err less; a single point has no other to keep away from.
+        // The points of a spiral are spread out, which reduces their error; a single point has no neighbours.
         let most = if count == 1 { 1.1 } else { 0.9 };
         assert!(error < most * independent, "{count}: {error}, {independent}");
         held.insert(format!("error_{count}"), json!(error));

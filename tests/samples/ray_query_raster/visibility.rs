@@ -1,4 +1,4 @@
-//! Visibility: every pixel of the rasteriser and of the rays, held to the reference.
+//! Visibility: every pixel of the rasteriser and of the rays, compared with the reference.
 
 use std::sync::LazyLock;
 
@@ -17,38 +17,38 @@ use super::{NAME, chapter};
 /// Width and height.
 type Size = (u32, u32);
 
-/// A pixel's fraction that a vertex is rounded to: of 8 bits on llvmpipe. It moves by half of that each way,
-/// and so an edge by at most √2/2 of it; what the vertex shader rounds in 32 bits comes on top.
+/// The fraction of a pixel that vertices are rounded to: 8 bits on llvmpipe. A vertex moves by up to half of
+/// that along each axis, and so an edge by up to √2/2 of it, plus the 32-bit rounding of the vertex shader.
 const SNAP: f64 = std::f64::consts::FRAC_1_SQRT_2 / 256.0 + 0.0002;
 
-/// Counts of a picture's answers compared with the reference.
+/// The numbers of a picture's answers, by comparison with the reference.
 #[derive(Debug, Default)]
 struct Count {
     agree: usize,
-    /// Another answer, as the pixel's centre is nearer to an edge than vertices are rounded.
+    /// Another answer, where the pixel's centre is closer to an edge than vertices are rounded.
     edges: usize,
-    /// Of those, other instances: a reader sees them.
+    /// Of those, other instances, which are visible.
     other_instances: usize,
-    /// The nearest of the edges' distances that would have explained all of those, in pixels.
+    /// The largest distance of an edge needed to explain those, in pixels.
     reach: f64,
-    /// A surface farther away than another that covers the pixel too.
+    /// A surface farther away than another that also covers the pixel.
     farther: usize,
-    /// Greatest excess of the depth.
+    /// The largest excess of the depth.
     depth: f64,
-    /// Nothing, where something covers the pixel.
+    /// No surface, where something covers the pixel.
     lost: usize,
-    /// Nothing explains it.
+    /// Differences without an explanation.
     wrong: Vec<String>,
 }
 
-/// A camera in f64, which finds the place of a point in the picture.
+/// A camera in f64 that computes the position of a point in the picture.
 struct Projection {
     camera: Camera,
     size: Size,
 }
 
 impl Projection {
-    /// In pixels from the top left corner.
+    /// The position in pixels from the top left corner.
     fn place(&self, point: DVec3) -> DVec2 {
         let [right, up, forward] = self.camera.axes();
         let way = point - self.camera.eye;
@@ -58,7 +58,7 @@ impl Projection {
         DVec2::new((x + 1.0) * width / 2.0, (1.0 - y) * height / 2.0)
     }
 
-    /// Distance of a pixel's middle from the triangle's outline: negative outside.
+    /// The distance of a pixel's middle from the triangle's outline; negative outside.
     fn margin(&self, pixel: usize, triangle: &[DVec3; 3]) -> f64 {
         let width = self.size.0 as usize;
         let middle = DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
@@ -74,7 +74,7 @@ impl Projection {
 /// Instance and primitive of a hit, if there is one.
 type Answer = Option<(u32, u32)>;
 
-/// The rays of a picture, and what each meets.
+/// The rays of a picture, and the hits of each.
 struct Truth {
     directions: Picture,
     rays: Vec<Ray>,
@@ -111,7 +111,7 @@ fn count(
         let t = |(instance, primitive): (u32, u32)| {
             exact.candidate_at(ray, instance, primitive).expect("a triangle").hit.t
         };
-        // The answer covers the pixel only if an edge moves, or what should cover it does not.
+        // The answer covers the pixel only if an edge moves, or the expected surface does not cover it.
         let needed = found.map_or(0.0, |found| -margin(found)).max(0.0);
         let missed = expected.map_or(f64::INFINITY, margin);
         let reach = if needed > 0.0 { needed } else { missed };
@@ -134,12 +134,12 @@ fn count(
     count
 }
 
-/// The scene looked at, and the way it is drawn.
+/// The scene, and the way it is drawn.
 struct View {
     size: Size,
     camera: Camera,
     arithmetic: &'static str,
-    /// Distance by which an edge may move, in pixels.
+    /// The distance by which an edge may move, in pixels.
     snap: f64,
 }
 
@@ -149,8 +149,8 @@ impl View {
         Self { size, camera, arithmetic: "driver", snap: SNAP }
     }
 
-    /// Counts of the answers with each of these settings, compared with the reference. Pictures of the same rays
-    /// share what the reference says of them.
+    /// The counts for each of these settings, compared with the reference. Pictures of the same rays share
+    /// the reference's results.
     fn counts<const N: usize>(&self, ways: [&str; N]) -> [Count; N] {
         static EXACT: LazyLock<Exact> = LazyLock::new(|| reference(&Scene::chess().unwrap()));
         let Camera { eye, target, fov_y, .. } = self.camera;
@@ -187,7 +187,7 @@ fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
         assert!(found.wrong.is_empty(), "{:?}", found.wrong);
         assert_eq!((found.farther, found.lost), (0, 0), "{found:?}");
     }
-    // A ray's edges are off by its roundings alone.
+    // A ray's edges are only off by its roundings.
     assert!(rays.edges < raster.edges && rays.reach < 0.0002, "{rays:?}");
     assert!(raster.edges > 30, "{raster:?}");
     expected::hold(
@@ -204,14 +204,14 @@ fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
     );
 }
 
-/// All triangles at a corner compute its place alike, however inexactly: edges move, and no crack opens.
+/// All triangles at a vertex compute its position alike, however inexactly: edges move, but no crack opens.
 #[test]
 #[ignore = "nightly: compiles for long; quick: ray_query_raster::visibility::raster_and_rays_see_what_the_reference_sees_but_for_edges"]
 fn no_crack_opens_in_the_worst_arithmetic() {
     if !run::has_worst_arithmetic() {
         return;
     }
-    // A corner is some 40 roundings of 12 units off, of which a pixel is 0.08.
+    // A vertex is off by about 40 roundings of 12 units; a pixel is 0.08.
     let snap = SNAP + 40.0 * 12.0 * f64::from(f32::EPSILON) / 0.08;
     for arithmetic in ["worst", "worst-by-place"] {
         let view = View { arithmetic, snap, ..View::of((160, 100)) };
@@ -222,7 +222,7 @@ fn no_crack_opens_in_the_worst_arithmetic() {
     }
 }
 
-/// The same view from farther and farther away, by a telescope: what the depth test mistakes.
+/// The same view from increasing distances, with a telescope: the errors of the depth test.
 #[test]
 fn reversed_floats_tell_near_from_far_where_others_do_not() {
     run::needs!(NAME);

@@ -19,7 +19,7 @@ fn depths() {
     draw_panels("06_depths.png", 1, &[Shown::row(&[0, 1, 2, 8].map(show))]);
 }
 
-/// Root of the mean square of what two pictures differ by on a screen, where nothing is beyond white.
+/// The root mean square difference of two pictures on a screen, where nothing exceeds white.
 fn error(a: &Picture, b: &Picture) -> f64 {
     let squares = a.pixels.iter().zip(&b.pixels).map(|(a, b)| {
         (0..3).map(|k| f64::from(a[k].min(1.0) - b[k].min(1.0)).powi(2)).sum::<f64>() / 3.0

@@ -1,10 +1,10 @@
-//! Gain of further samples: the speed at which the error falls, and its spread over neighbours.
+//! The benefit of further samples: the speed at which the error falls, and its spread over neighbours.
 
 use common::app::Picture;
 
 use super::{SIZE, SMALL, chapter, error};
 
-/// The error after so many samples.
+/// The error after these numbers of samples.
 #[derive(Debug)]
 struct Errors {
     after_16: f64,
@@ -35,8 +35,8 @@ fn every_sequence_converges_to_one_picture_and_the_even_ones_sooner() {
     for (sequence, scrambling) in [("Halton", "rotation"), ("R2", "rotation"), ("Sobol", "Owen")] {
         let even = errors(sequence, scrambling);
         println!("{sequence}: {even:.5?}");
-        // At an edge the error of points in a pattern falls as N^-3/4 (Mitchell 1996): sixteen times as
-        // many divide it by eight, where random ones divide it by four.
+        // At an edge, the error of patterned points falls as N^-3/4 (Mitchell 1996): sixteen times as many
+        // divide it by eight, whereas random ones divide it by four.
         assert!(even.after_16 / even.after_256 > 5.5, "{sequence}: {even:?}");
         assert!(even.after_64 < random.after_64 / 2.0, "{sequence} {even:?}, random {random:?}");
     }
@@ -60,7 +60,7 @@ fn errors_of_scrambled_pixels_cancel_and_shared_ones_do_not() {
     assert!(shared < 5.5, "{shared}");
 }
 
-/// Each square of pixels replaced by its mean; what does not fill a square is left out.
+/// Each square of pixels replaced by its mean; incomplete squares are left out.
 pub fn shrunk(picture: &Picture, side: u32) -> Picture {
     let (width, height) = (picture.width / side, picture.height / side);
     let mean = |i: u32| {

@@ -89,7 +89,7 @@ fn errors() {
     let mut held = Map::new();
     for ((sequence, ..), curve) in SEQUENCES.iter().zip(&curves) {
         let shown = [0, 2, 4, 6, 8];
-        // From 4 samples on: the first ones are too few for a pattern.
+        // From 4 samples on: fewer are not yet a pattern.
         let slope = (curve[9] / curve[2]).log2() / 7.0;
         held.extend(shown.map(|i| (format!("{sequence}.{}", FRAMES[i]), curve[i].into())));
         held.insert(format!("{sequence}.slope"), slope.into());

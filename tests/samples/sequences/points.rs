@@ -1,7 +1,7 @@
-//! The points that 37_sequences should draw, each made from its definition in the literature.
+//! The expected points of 37_sequences, each computed from its definition in the literature.
 //!
-//! The shader works with whole numbers of 2^-32; this copy works with fractions in f64, and uses whole
-//! numbers only where the definition is one of bits: the hash, and Owen's scrambling by it.
+//! The shader works with integer multiples of 2^-32; this copy works with fractions in f64, and uses integers
+//! only where the definition is in terms of bits: the hash, and Owen's scrambling by it.
 
 /// A sequence, as the control names it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub enum Sequence {
     Sobol,
 }
 
-/// The rule that makes the points of two pixels differ, as the control names it.
+/// The rule by which the points of two pixels differ, as the control names it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scrambling {
     None,
@@ -20,10 +20,10 @@ pub enum Scrambling {
     Owen,
 }
 
-/// Purpose of a random number: the place within the pixel. As in `shaders/common/random.glsl`.
+/// The purpose of a random number: the place within the pixel, as in `shaders/common/random.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 
-/// The point at which the ray of frame `i` goes through a pixel, in [0, 1)².
+/// The point of a pixel that the ray of frame `i` passes through, in [0, 1)².
 pub fn sample_point(
     sequence: Sequence,
     scrambling: Scrambling,
@@ -49,7 +49,7 @@ pub fn sample_point(
     })
 }
 
-/// The digits of `i` in a base, mirrored at the point (van der Corput 1935; Halton 1960).
+/// The digits of `i` in a base, reflected about the point (van der Corput 1935; Halton 1960).
 pub fn mirrored(mut i: u32, base: u32) -> f64 {
     let (mut digits, mut scale) = (0u64, 1u64);
     while i > 0 {
@@ -69,8 +69,8 @@ pub fn r2(i: u32) -> [f64; 2] {
     [(f64::from(i) / g).fract(), (f64::from(i) / (g * g)).fract()]
 }
 
-/// The second dimension of Sobol': digit j after the point is the parity of the bits k of `i` for which
-/// the binomial of k over j is odd, which it is where no bit of j is missing in k (Lucas).
+/// The second dimension of Sobol': digit j after the point is the parity of the bits k of `i` for which the
+/// binomial coefficient of k over j is odd, which is the case if k has all bits of j (Lucas).
 pub fn sobol_second(i: u32) -> f64 {
     let digit = |j: u32| (0..32).filter(|&k| i >> k & 1 == 1 && j & !k == 0).count() % 2;
     (0..32).map(|j| digit(j) as f64 * 0.5f64.powi(j as i32 + 1)).sum()

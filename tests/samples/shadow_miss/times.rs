@@ -1,4 +1,4 @@
-//! The time that the flag of the first hit saves.
+//! The time saved by the flag of the first hit.
 
 use run::expected;
 use serde_json::{Value, json};
@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 use super::{FIRST_HIT, NAME};
 use run::{Chapter, copy_of_shaders, shaders_with};
 
-/// A frame's time where shadow rays go on to the nearest hit, over that where the first hit ends them.
+/// The time of a frame whose shadow rays continue to the nearest hit, relative to one where they end at the
+/// first.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_first_hit_in_time() {

@@ -1,4 +1,4 @@
-//! Clips, the inverse, and what is inside.
+//! Clips, the inverse, and the inside.
 
 use glam::{DVec3, Vec3};
 use reference::solid::Solid as ReferenceSolid;
@@ -33,7 +33,7 @@ fn a_clip_cuts_open_and_an_intersection_caps() {
             of_closed.judge(&closed, ray, Stray::default(), capped);
             seen_inside += usize::from(open[0] >= 0.0 && open[3] == 1.0);
             lids += usize::from(capped[0] >= 0.0 && capped[1] as usize == members - 1);
-            // The lid hides the inside, and only the part that the clip has left is there.
+            // The lid hides the inside, and only the part left by the clip is visible.
             assert!(capped[0] < 0.0 || capped[3] == 0.0, "{name}: {capped:?}");
             assert!(open[0] < 0.0 || open[1] as usize != members - 1, "{name}: {open:?}");
         }
@@ -59,7 +59,7 @@ fn so_they_do_of_other_solids() {
     inverses_exchange_the_sides(&outside, &["shell"]);
 }
 
-/// By the names of the solids that are seen from outside, and from inside.
+/// The names of the solids seen from outside, and from inside.
 fn inverses_exchange_the_sides(outside: &[&str], inside: &[&str]) {
     let stub = Stub;
     for (view, names) in [(OUTSIDE, outside), (INSIDE, inside)] {

@@ -1,4 +1,4 @@
-//! Solids as the reference takes them.
+//! Solids in the reference's form.
 
 use glam::Vec3;
 use reference::solid::Solid as ReferenceSolid;
@@ -7,7 +7,7 @@ use reference::sphere::Sphere;
 use super::program::{Face, FaceKind, Programs};
 use super::solid::{self, Bound, Solid, block};
 
-/// Solids as the reference takes them, of the very numbers that the shaders get.
+/// Solids in the reference's form, with the same numbers as the shaders.
 struct Translator {
     programs: Programs,
 }
@@ -72,7 +72,7 @@ pub fn counterpart(solid: &Solid, clip: &[Bound]) -> [ReferenceSolid; 2] {
     [translator.solid(solid), translator.clip(clip)]
 }
 
-/// The largest box: what has no end ends there.
+/// The largest box, which bounds unbounded solids.
 pub fn largest() -> Vec<Bound> {
     block(Vec3::splat(-solid::REACH), Vec3::splat(solid::REACH))
 }

@@ -1,4 +1,4 @@
-//! Fog, kept outside.
+//! Fog that stays outside.
 
 use glam::{DVec3, Vec3};
 use reference::solid::Solid as ReferenceSolid;
@@ -8,7 +8,7 @@ use super::stub::Stub;
 use super::{INSIDE, OUTSIDE, is_endless, shape, solid};
 use run::bits;
 
-/// The part of 0 to `end` that lies in these intervals.
+/// The length from 0 to `end` covered by these intervals.
 fn covered(intervals: &[[f64; 2]], end: f64) -> f64 {
     let part = |[enter, leave]: &[f64; 2]| (leave.min(end) - enter.max(0.0)).max(0.0);
     intervals.iter().map(part).sum()
@@ -20,7 +20,7 @@ fn fog_is_counted_on_the_way_outside_only() {
     let cut = solid::plane(Vec3::NEG_Z, 0.3);
     let sets = ["fog distance=2", "cut=clipped by", "cut normal=0,0,-1", "cut distance=0.3"];
     let (mut both, mut none, mut all) = (0, 0, 0);
-    // From inside through the opening, from behind, and from before it into it.
+    // From inside through the opening, from behind, and from the front into it.
     let views = [
         (DVec3::new(0.1, 0.2, 0.5), DVec3::new(0.9, -0.1, -0.4)),
         (DVec3::new(0.4, 0.3, 4.0), DVec3::ZERO),
@@ -39,7 +39,7 @@ fn fog_is_counted_on_the_way_outside_only() {
                 let end = if t < 0.0 { 1e30 } else { t };
                 let within = covered(&solid.intervals(ray), end);
                 let exact = end - within;
-                // A grazed edge has little way in it; the rest is the rounding of t.
+                // A grazed edge contains little of the path; the rest is the rounding of t.
                 assert!(
                     (way - exact).abs() <= 1e-5 * end.max(1.0),
                     "{name}: {ray:?} {way} {exact}"
@@ -53,7 +53,7 @@ fn fog_is_counted_on_the_way_outside_only() {
                     &mut both
                 } += 1;
             }
-            // Where fog is everywhere, it does not matter where a ray is: one view is enough.
+            // If fog is everywhere, the position of a ray does not matter: one view is enough.
             if view == views[0] {
                 for &[way, _, t, _] in &show(&["hollow=on"]).pixels {
                     assert_eq!(way, if t < 0.0 { 1e30 } else { t }, "{name}");
@@ -78,7 +78,7 @@ fn fog_stays_out_of_a_closed_solid_unless_it_is_hollow() {
     }
     let show = |sets: &[&str]| bits(&stub.seen(OUTSIDE, "cube", sets));
     assert_ne!(show(&["fog distance=5"]), show(&["fog distance=0"]));
-    // Under a plane one is in its half-space, where there is none either.
+    // Below a plane, the eye is in its half-space, which also contains no fog.
     let below = (DVec3::new(0.5, -2.0, 0.4), DVec3::new(0.2, 0.0, 0.1));
     let show = |name: &str, sets: &[&str]| bits(&stub.seen(below, name, sets));
     assert_eq!(show("half-space", &["fog distance=2"]), show("half-space", &["fog distance=0"]));

@@ -1,4 +1,4 @@
-//! Every hit held to the exact solid, by each rung, wherever the solid stands; and normals.
+//! Every hit compared with the exact solid, for each rung and placement; and normals.
 
 use common::scene::{Camera, transform};
 use glam::{Affine3A, DVec3};
@@ -16,15 +16,15 @@ use super::{FIELD_OF_VIEW, INSIDE, OUTSIDE, is_endless, shape};
 use run::expected as held;
 use run::primary_hits::rays;
 
-/// Holds views of solids, of these or others, to the exact ones.
+/// Compares views of solids with the exact ones.
 fn held_to_exact(shapes: &[&str]) -> Tally {
     let (stub, mut all) = (Stub, Tally::default());
     for view in [OUTSIDE, INSIDE] {
         let rays = stub.rays(view);
         for &name in shapes {
-            // From inside, walls are walls: those that differ in more are enough.
+            // From inside, walls look alike: solids with other differences are enough.
             let telling = ["cube", "die", "king", "shell", "halves", "slotted cube"];
-            // Each a twin of another, to which it is held elsewhere.
+            // Each is a twin of another, which it is compared with elsewhere.
             let twins = ["room", "overcut cube", "tilted cube", "thirds"];
             if view == INSIDE && !telling.contains(&name) || twins.contains(&name) {
                 continue;
@@ -45,12 +45,12 @@ fn held_to_exact(shapes: &[&str]) -> Tally {
     println!("all: {all}");
     assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
     assert!(all.near * 2000 < all.hits, "{all}");
-    // Three roundings that all add up: height, slope, quotient.
+    // Three roundings that add up: height, slope, quotient.
     assert!(!all.balls.is_empty() && at(&all.planes, 1.0) <= 3.0, "{all}");
     all
 }
 
-/// A solid of balls and planes, one of many members, one in two halves, and one without an end.
+/// A solid of balls and planes, one of many members, one in two halves, and an unbounded one.
 #[test]
 fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
     let all = held_to_exact(&["die", "king", "halves", "half-space"]);
@@ -72,7 +72,7 @@ fn so_do_hits_of_every_solid() {
 #[test]
 fn each_rung_of_the_planes_is_as_good_as_it_promises() {
     let stub = Stub;
-    // Eleven times as far away; the field of view is as small as it may be.
+    // Eleven times as far away, with the smallest field of view.
     let far = (OUTSIDE.0 * 11.0, DVec3::new(0.1, 0.2, 0.0));
     let field = "field of view=2.5";
     let directions = stub.seen(far, "cube", &["show=ray direction", field]);
@@ -89,7 +89,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
                 let solid = counterpart(&shape(name), &[]);
                 let hits = stub.hits(view, name, &[&[&*set], more].concat());
                 for (ray, hit) in rays.iter().zip(&hits.pixels) {
-                    // A hundred times the bounds of the best rung: whether the answer is right, its t tells.
+                    // A hundred times the bounds of the best rung: its t shows whether the answer is right.
                     let stray = Stray { origin: 100.0 * U * ray.origin.length(), direction: 0.0 };
                     tally.judge(&solid, ray, stray, hit);
                 }
@@ -98,7 +98,8 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
             table.extend(values(&format!("{rung}.{place}"), &tally.planes));
             assert!(tally.wrong.is_empty() && tally.hits > 500, "{tally}, {:?}", tally.wrong);
             let worst = at(&tally.planes, 1.0);
-            // Solids are small, and a ray that grazes a face sees little of it: the plainest sum is near.
+            // Solids are small, and a ray that grazes a face sees little of it: the simplest sum is not far
+            // off.
             let promised = match rung {
                 "compensated" => worst <= 3.0,
                 _ => worst > 3.0 && worst < 1000.0,
@@ -109,7 +110,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
     held::hold("22_solids/sums", table.into());
 }
 
-/// The solid's placement: turned by 33 degrees, so many times as large, and moved.
+/// The solid's placement: rotated by 33 degrees, scaled by a factor, and moved.
 struct Standing {
     sets: [&'static str; 3],
     size: f64,
@@ -161,7 +162,7 @@ fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
             held::hold("22_solids/far", json!({ "p50": at(&all.planes, 0.5) }));
         }
         assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
-        // Ten thousand away, a step of f32 is a seventieth of a pixel.
+        // Ten thousand units away, a step of f32 is a seventieth of a pixel.
         let most = if moved == DVec3::ZERO { all.hits / 500 } else { all.hits / 5 };
         assert!(all.hits > 700 && all.near <= most, "{all}");
     }
@@ -194,7 +195,7 @@ fn normals_point_out_of_the_solid_and_to_the_eye() {
                 let to_eye = -out * out.dot(ray.direction).signum();
                 let [x, y, z, _] = normal.map(f64::from);
                 let error = (DVec3::new(x, y, z) * 2.0 - 1.0 - to_eye).length();
-                // A unit vector is off by 6u, its picture by 4u, a ball's point by some u of the way.
+                // A unit vector is off by 6u, its picture by 4u, a ball's point by some u of the distance.
                 assert!(error <= (12.0 + 20.0 * distance) * U, "{name}: {error} at {hit:?}");
                 count += 1;
             }

@@ -13,7 +13,7 @@ fn no_face_shades_itself_and_shadows_are_the_exact_ones() {
     let stub = Stub;
     let sun = Sun { azimuth: 305.0, elevation: 34.0, ..Sun::default() };
     let light = sun.light().direction.to_array();
-    // Convex solids have no shadow but that of their own far side.
+    // Convex solids only have the shadow of their own far side.
     for sets in [["size=1", "moved=0"], ["size=1000", "moved=0"], ["size=0.001", "moved=10000"]] {
         let (mut lit, mut dark) = (0, 0);
         for name in ["crystal", "lens", "cube"] {
@@ -24,7 +24,7 @@ fn no_face_shades_itself_and_shadows_are_the_exact_ones() {
                     continue;
                 }
                 let towards: f32 = (0..3).map(|i| (normal[i] * 2.0 - 1.0) * light[i]).sum();
-                // On the terminator the sign itself is rounded.
+                // On the terminator, the sign itself is rounded.
                 if towards.abs() > 1e-5 {
                     assert_eq!(shadow[3] == 1.0, towards > 0.0, "{name} {sets:?}: {shadow:?}");
                     *if towards > 0.0 { &mut lit } else { &mut dark } += 1;
@@ -49,8 +49,8 @@ fn no_face_shades_itself_and_shadows_are_the_exact_ones() {
                 *if visible == 1.0 { &mut lit } else { &mut dark } += 1;
                 continue;
             }
-            // An outline; or the terminator of a ball: from h above it, a ray passes it whose sine is
-            // below the root of 2h/r, and h is 2e-6 here, r 0.2 or more.
+            // An outline; or the terminator of a ball: a ray from a height h above it passes it if its sine
+            // is below the root of 2h/r, where h is 2e-6, and r 0.2 or more.
             let outline = visible == 1.0
                 && solid.judge(&clip, &ray, Stray::default(), None) == SolidVerdict::Near;
             let towards: f32 = (0..3).map(|i| (normal[i] * 2.0 - 1.0) * light[i]).sum();

@@ -1,4 +1,4 @@
-//! Solids without pieces, and the rays that look at them.
+//! Solids without pieces, and the rays of their views.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use run::primary_hits::rays;
 pub struct Stub;
 
 impl Stub {
-    /// One solid.
+    /// A picture of one solid.
     pub fn seen(&self, (eye, target): View, name: &str, sets: &[&str]) -> Arc<Picture> {
         let one = Chapter::new(NAME).size(SIZE).sets(&["preset=one solid"]).set("solid", name);
         let seen = one.set("camera eye", text(eye)).set("camera target", text(target));
         seen.sets(sets).shared_picture()
     }
 
-    /// Hits of rays with it: instance, face, t, and whether the ray was inside; -1 for a miss.
+    /// The hits of rays: instance, face, t, and whether the ray was inside; -1 for a miss.
     pub fn hits(&self, view: View, name: &str, sets: &[&str]) -> Picture {
         let mut hits = (*self.seen(view, name, &[sets, &["show=hit"]].concat())).clone();
         with_kinds(&mut hits, &self.seen(view, name, &[sets, &["show=hit kind"]].concat()));
@@ -35,7 +35,7 @@ impl Stub {
     }
 }
 
-/// Puts the kinds of hits where their materials were.
+/// Replaces the materials of hits by their kinds.
 pub fn with_kinds(hits: &mut Picture, kinds: &Picture) {
     for (hit, kind) in hits.pixels.iter_mut().zip(&kinds.pixels) {
         hit[3] = kind[3];

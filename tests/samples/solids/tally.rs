@@ -1,4 +1,4 @@
-//! Counts of a picture's answers.
+//! The counts of a picture's answers.
 
 use std::fmt;
 
@@ -8,12 +8,12 @@ use reference::solid::bound::{SolidAnswer, SolidVerdict, Stray};
 use reference::ulp::ulp_error;
 use serde_json::Value;
 
-/// Counts of a picture's answers.
+/// The counts of a picture's answers.
 #[derive(Default)]
 pub struct Tally {
     pub hits: usize,
     pub misses: usize,
-    /// Explained by two surfaces or an outline that are closer than what f32 can tell.
+    /// Explained by two surfaces, or an outline, closer than f32 can resolve.
     pub near: usize,
     pub wrong: Vec<String>,
     /// Errors of t in ULP.
@@ -22,7 +22,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// `hit` is what `show=hit` says: instance, face, t, and whether the ray was inside.
+    /// `hit` is a pixel of `show=hit`: instance, face, t, and whether the ray was inside.
     pub fn judge(
         &mut self,
         [solid, clip]: &[ReferenceSolid; 2],
@@ -64,13 +64,13 @@ impl Tally {
     }
 }
 
-/// The errors' median, what 99 of 100 are below, and the largest, as figures for a page.
+/// The errors' median, 99th percentile and maximum, as figures for a page.
 pub fn values(name: &str, errors: &[f64]) -> [(String, Value); 3] {
     let part = |(figure, part)| (format!("{name}.{figure}"), at(errors, part).into());
     [("p50", 0.5), ("p99", 0.99), ("max", 1.0)].map(part)
 }
 
-/// The error that so large a part stays below.
+/// The error below which this fraction stays.
 pub fn at(errors: &[f64], part: f64) -> f64 {
     let mut sorted = errors.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -19,7 +19,7 @@ fn differing(a: &Picture, b: &Picture) -> usize {
     bits(a).iter().zip(bits(b)).filter(|(a, b)| **a != *b).count()
 }
 
-/// Wrong pixels where each plane has numbers of its own.
+/// The wrong pixels if each plane has its own numbers.
 #[derive(Debug, Default)]
 struct Alone {
     halves: usize,
@@ -60,14 +60,14 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
         assert_eq!(overlap(&["show=hit"]), 0);
         wrong.overlap_of_halves += overlap(&["show=hit", "shared planes=off"]);
     }
-    // A crack between united halves has solid before it: one sees the crack from within.
+    // A crack between united halves has solid in front of it, and is only visible from inside.
     let within = ["camera eye=0.05,-0.35,-0.12", "camera target=0.6,0.1,0.3"];
     let cube = show("tilted cube", &within);
     assert_eq!(differing(&show("halves", &within), &cube), 0);
     let alone = [&within[..], &["shared planes=off"]].concat();
     wrong.halves_from_within = differing(&show("halves", &alone), &cube);
     println!("each plane alone: {wrong:?}: pixels of {0}, the last of {1}", 2 * 9000, 9000);
-    // Without the rule all these pictures break, but for united halves seen from outside.
+    // Without the rule all these pictures fail, except for united halves seen from outside.
     let Alone { halves: _, grazed_cube, slotted_cube, overlap_of_halves, halves_from_within } =
         wrong;
     let found = json!({ "halves_from_within": halves_from_within, "grazed_cube": grazed_cube,
@@ -80,7 +80,7 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
 
 #[test]
 fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
-    // The middle column looks at the line, to the last digits.
+    // The middle column looks exactly along the line, up to the last digits.
     let view = ["camera eye=-0.35,-0.12,0.61", "camera target=0,0.05,0"];
     let [thirds, cube] = ["thirds", "cube"].map(|name| {
         let one = Chapter::new(NAME).size("101x301").sets(&["preset=one solid", "show=hit"]);
@@ -95,13 +95,13 @@ fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
     }
     println!("{cracks} of 301 rays that meet the line stop there");
     expected::hold("22_solids/cracks", json!({ "cracks": cracks, "rays": thirds.height }));
-    // One plane is one number, but three numbers have an order, which rounding may choose.
+    // One plane has a single distance, but three distances have an order, which rounding may determine.
     assert!(cracks > 0);
 }
 
 #[test]
 fn rays_within_a_face_are_decided_by_the_same_rule() {
-    // At the height of a top, and at a wall: the middle row, or the middle column, lies in it.
+    // At the height of a top, and at a wall: it contains the middle row, or the middle column.
     for (name, eye, target) in [
         ("tower", DVec3::new(4.0, f64::from(1.4f32), 0.3), DVec3::new(0.0, f64::from(1.4f32), 0.1)),
         ("cube", DVec3::new(4.0, 1.0, 0.3), DVec3::new(0.0, 1.0, 0.3)),
@@ -128,7 +128,7 @@ fn rays_within_a_face_are_decided_by_the_same_rule() {
             within += usize::from(level);
             let before = tally.near + tally.wrong.len();
             tally.judge(&solid, &ray, Stray::default(), hit);
-            // No excuse in the plane itself: sums of zeros round nothing.
+            // No excuse in the plane itself: sums of zeros are exact.
             assert!(!level || tally.near + tally.wrong.len() == before, "{name}: {ray:?} {hit:?}");
         }
         println!("{name}: {tally}");

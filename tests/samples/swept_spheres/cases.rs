@@ -1,4 +1,4 @@
-//! Families of rays and shapes, each hard in a way of its own, from fixed seeds.
+//! Families of rays and shapes, each hard in its own way, from fixed seeds.
 
 use glam::DVec3;
 use reference::random::{Random, f32s, towards};
@@ -8,7 +8,7 @@ use super::direct::Case;
 
 pub const COUNT: usize = 1000;
 
-/// The families, and what makes each hard.
+/// The families, and the difficulty of each.
 pub const FAMILIES: [&str; 11] = [
     "everyday",  // from 3 to 10 sizes away
     "far",       // from 10,000
@@ -23,12 +23,13 @@ pub const FAMILIES: [&str; 11] = [
     "joints",    // rays that touch where body and cap meet
 ];
 
-/// A number that is an f32.
+/// A number rounded to f32.
 fn rounded(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-/// A point of the surface: on an end, or on the body beside the ball at `s`, in a direction across the axis.
+/// A point of the surface: on an end, or on the body next to the ball at `s`, in a direction perpendicular to
+/// the axis.
 fn on_surface(swept: &Swept, s: f64, turn: DVec3) -> DVec3 {
     let [a, b] = swept.ends;
     let radius = swept.radii[0] + s * (swept.radii[1] - swept.radii[0]);
@@ -75,7 +76,7 @@ fn case(family: &str, random: &mut Random) -> Case {
         radii.reverse();
     }
     let swept = Swept { ends, radii };
-    // Half aim at the shape, half at its outline, a thousandth of the radius to either side.
+    // Half aim at the shape, half at its outline, within a thousandth of the radius on either side.
     let along = ends[1] - ends[0];
     let eye = center + random.unit() * distance * size;
     let s = random.between(-0.2, 1.2);
@@ -91,7 +92,7 @@ fn case(family: &str, random: &mut Random) -> Case {
         "along" => {
             let off = random.in_cube() * random.scale(1e-7, 1e-2);
             let from = target - distance * along;
-            // Every fourth is parallel as nearly as floats can be, every eighth exactly.
+            // Every fourth is as nearly parallel as floats allow, every eighth exactly.
             let to = if random.below(4) == 0 { target } else { target + off };
             let mut ray = towards(from, to);
             if random.below(8) == 0 {
@@ -147,7 +148,7 @@ pub fn through_tips() -> Vec<Case> {
     cases
 }
 
-/// A seed of one's own: with `SEED=7` the tests hunt in cases that nobody has seen.
+/// Another seed: with `SEED=7` the tests try new cases.
 pub fn seed() -> Option<u64> {
     std::env::var("SEED").ok().map(|seed| seed.parse().expect("SEED is a whole number"))
 }

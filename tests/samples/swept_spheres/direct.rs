@@ -1,4 +1,4 @@
-//! The chapter's functions called on given rays and shapes, in the driver's arithmetic or in the worst.
+//! Calls the chapter's functions for given rays and shapes, in the driver's arithmetic or in the worst.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use instruments::arithmetic::Arithmetic;
 use reference::Ray;
 use reference::swept::Swept;
 
-/// A ray and a swept sphere: f32 numbers, all of them.
+/// A ray and a swept sphere; all numbers are f32.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     pub ray: Ray,
@@ -53,10 +53,10 @@ common::shader_struct! {
     }
 }
 
-/// Folder of the test's shader in a copy of the book's shaders.
+/// The folder of the test's shader in a copy of the book's shaders.
 const FOLDER: &str = "swept_spheres_of_a_test";
 
-/// Runs a test of this program that asks: alone, so that it may have shaders of its own.
+/// Runs a test of this program in a process of its own, so that it can have its own shaders.
 pub fn run_alone(test: &str) {
     let shaders = run::copy_of_shaders();
     let folder = shaders.path().join(FOLDER);
@@ -81,14 +81,14 @@ pub struct Found {
     pub normal: DVec3,
 }
 
-/// A device that computes as `arithmetic` says.
+/// A device with the given arithmetic.
 pub fn device(arithmetic: Arithmetic) -> Gpu {
     let requirements = Requirements::ray_tracing();
     let driver_shim = Arc::new(arithmetic);
     Gpu::new(&GpuOptions { requirements, driver_shim, ..GpuOptions::default() }).expect("a device")
 }
 
-/// The first hit of each ray by a rung, by the number that its shader knows it by.
+/// The first hit of each ray by a rung, given by its number in the shader.
 pub fn ask(gpu: &Gpu, rung: u32, cases: &[Case]) -> Vec<Option<Found>> {
     let pipeline = RayTracingPipeline::builder(FOLDER)
         .raygen("direct.rgen")

@@ -1,4 +1,4 @@
-//! Results of a rung on a family, compared with the exact answers.
+//! The results of a rung on a family, compared with the exact answers.
 
 use glam::DVec3;
 use reference::Surface;
@@ -7,7 +7,7 @@ use reference::ulp::ulp_error;
 
 use super::direct::{Case, Found};
 
-/// Relative change of the radii for which a ray counts as a tangent that no arithmetic has to decide.
+/// A ray counts as a tangent, which no arithmetic has to decide, within this relative change of the radii.
 const TANGENT: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Cases and their exact answers.
@@ -30,9 +30,9 @@ pub struct Tally {
     pub false_hits: usize,
     pub false_misses: usize,
     pub tangents: usize,
-    /// Errors of t of the right hits, in units of the last place, sorted.
+    /// The errors of t of the right hits, in units of the last place, sorted.
     pub ulp: Vec<f64>,
-    /// Errors of the normal: the length of the difference, sorted.
+    /// The errors of the normal: the length of the difference, sorted.
     pub normals: Vec<f64>,
     pub first_wrong: Option<String>,
 }
@@ -46,7 +46,8 @@ impl Tally {
                 (Some(hit), Some(found)) => {
                     tally.hits += 1;
                     tally.ulp.push(ulp_error(found.t, hit.t));
-                    // A normal turns by how far the point is off over the radius there: near a tip, by anything.
+                    // A normal turns by the error of the point over the radius there: near a tip, by any
+                    // angle.
                     let [r, q] = case.swept.radii;
                     if r + f64::from(found.s) * (q - r) > 1e-4 * r.max(q) {
                         tally.normals.push((found.normal - hit.normal).length());
@@ -75,7 +76,7 @@ impl Tally {
         self.false_hits + self.false_misses
     }
 
-    /// The part of the hits whose t is off by less than this.
+    /// The fraction of the hits whose t is off by less than this.
     pub fn ulp_at(&self, part: f64) -> f64 {
         at(&self.ulp, part)
     }
@@ -85,7 +86,7 @@ impl Tally {
     }
 }
 
-/// Tests whether a ray that hits the shape meets a tip, a ball of radius 0, and nothing else: no hit without it.
+/// Returns whether a ray that hits the shape only hits a tip, a ball of radius 0.
 fn touches_tip(case: &Case) -> bool {
     let [a, b] = case.swept.ends;
     let radii = case.swept.radii;

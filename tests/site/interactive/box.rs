@@ -1,4 +1,4 @@
-//! 08's ray past a sphere and a box, held to the exact hits.
+//! 08's ray past a sphere and a box, compared with the exact hits.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ fn each_shape_reports_what_the_exact_ray_hits_first() {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         low + (random >> 16) % (high + 1 - low)
     };
-    // As the figure stands first, level rays on a wall and beside one, and any.
+    // The figure's initial ray, level rays on a wall and next to one, and random rays.
     let mut rays = vec![
         [100, 40, 200, 20, 380],
         [100, 160, 160, 0, 500],
@@ -56,14 +56,14 @@ fn each_shape_reports_what_the_exact_ray_hits_first() {
             tmin: number(&told["tmin"]),
             tmax: number(&told["tmax"]),
         };
-        // The origin and the end are those of the controls.
+        // The origin and the end match the controls.
         let control = |index: usize| values[index].parse::<f64>().unwrap();
         assert_eq!(ray.origin, DVec3::new(control(0), 220.0 - control(1), 0.0));
         let end = ray.at((466.0 - control(0)) / ray.direction.x);
         assert!((end.y - (220.0 - control(2))).abs() < 1e-9, "{told}");
         assert_eq!([ray.tmin, ray.tmax], [control(3), control(4).max(control(3))]);
 
-        // The first hit of all the line is the near root; what lies after it is the far one.
+        // The first hit along the line is the near root; the next hit is the far one.
         let exact = |shape: &str, ray: &Ray| match shape {
             "sphere" => sphere.intersect_exact(ray).map(|hit| hit.to_f64().t),
             _ => cuboid.intersect_exact(ray).map(|hit| hit.t.to_f64().value()),
@@ -104,7 +104,7 @@ fn each_shape_reports_what_the_exact_ray_hits_first() {
         assert!(said.replace("the ", "").ends_with(&format!("hits {nearest}.")), "{said}");
     }
     assert!(cases.len() == 14, "{cases:?}");
-    // What the page's drawing shows: the ray leaves the slab of y first, and there the box.
+    // As in the page's drawing, the ray leaves the slab of y first, and with it the box.
     let told =
         found(&mut browser, &[("start x", "100"), ("start y", "40"), ("aim", "200")], "found");
     assert_eq!(told["shapes"]["box"], json!([told["slabs"][0][0], told["slabs"][1][1]]));

@@ -1,4 +1,4 @@
-//! 03's candidates in every order, held to the drawing and to exact intersections.
+//! 03's candidates in every order, compared with the drawing and with exact intersections.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +17,8 @@ pub const PAGE: &str = "03_any_hit.html";
 /// The height of a pane's cell.
 const CELL: f64 = 28.0;
 
-/// Each pane that a ray at a height crosses, and where; `true` for wood. Wood is two triangles a cell, and so are holes.
+/// The panes crossed by a ray at a height, and the places; `true` for wood. Wood is two triangles per cell,
+/// and so are holes.
 fn crossed(panes: &BTreeMap<String, (f64, String)>, height: f64) -> Vec<(f64, String, bool)> {
     let ray = Ray {
         origin: DVec3::new(20.0, height, 0.25),
@@ -45,7 +46,7 @@ fn crossed(panes: &BTreeMap<String, (f64, String)>, height: f64) -> Vec<(f64, St
 fn every_order_of_candidates_finds_the_nearest_wood_and_only_calls_depend_on_it() {
     let mut browser = Browser::start();
     shown(&mut browser, &address(PAGE), "candidates");
-    // As the page has it, the figure shows what the drawing shows.
+    // Initially, the figure shows the same as the drawing.
     let svg = fs::read_to_string(root().join("docs/images/any_hit_order.svg")).unwrap();
     let drawn = |words: &str| svg.lines().filter(|line| line.contains(words)).count();
     let told = found(&mut browser, &[], "found.steps.map(({ name, says }) => [name, says])");
@@ -81,7 +82,7 @@ fn every_order_of_candidates_finds_the_nearest_wood_and_only_calls_depend_on_it(
             for order in 1..=24 {
                 let told = found(&mut browser, &[("order", &order.to_string())], "found");
                 let names: Vec<String> = serde_json::from_value(told["order"].clone()).unwrap();
-                // A pane is asked about if no wood before it in the order is nearer.
+                // A pane is a candidate if no wood before it in the order is closer.
                 let place = |name: &String| crossed.iter().find(|at| at.1 == *name).unwrap();
                 let wood: Vec<_> = names.iter().filter(|name| place(name).2).collect();
                 let asked = |at: usize| match answer {

@@ -14,7 +14,7 @@ pub const PAGE: &str = "43_filtered_checker.html";
 const SIDE: usize = 128;
 const FINE: usize = 12;
 
-/// The figure's camera, as it tells of it.
+/// The figure's camera, from its results.
 struct Camera([DVec3; 4]);
 
 impl Camera {
@@ -23,7 +23,7 @@ impl Camera {
         Self(["eye", "forward", "right", "up"].map(|name| vector(name).into()))
     }
 
-    /// The point where the ray through a point of the picture meets the board, and its distance.
+    /// The point where the ray through a point of the picture hits the board, and its distance.
     fn board(&self, point: DVec2) -> Option<(DVec2, f64, DVec3)> {
         let Self([origin, forward, right, up]) = *self;
         let screen = 2.0 * point / SIDE as f64 - 1.0;
@@ -35,12 +35,12 @@ impl Camera {
     }
 }
 
-/// Colour of the board at a point: 1 on a light square.
+/// The colour of the board at a point: 1 on a light square.
 fn light(at: DVec2) -> f64 {
     f64::from((at.x.floor() + at.y.floor()).rem_euclid(2.0) == 0.0)
 }
 
-/// The mean of stripes, +1 between 0 and 1, over an interval: what is light in it, less what is dark.
+/// The mean of stripes, +1 between 0 and 1, over an interval: its light part minus its dark part.
 fn stripes(middle: f64, width: f64) -> f64 {
     let light_until = |x: f64| (x / 2.0).floor() + x.rem_euclid(2.0).min(1.0);
     let (from, to) = (middle - width / 2.0, middle + width / 2.0);
@@ -52,7 +52,7 @@ fn stripes(middle: f64, width: f64) -> f64 {
 fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_square() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "checker");
-    // It begins with what the page says of the chapter's picture.
+    // Its initial text agrees with the page's text about the chapter's picture.
     let said = "document.querySelector('.figure .said').textContent";
     let errors = serde_json::from_value::<[f64; 2]>(found(
         &mut browser,
@@ -68,7 +68,7 @@ fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_squar
     assert!(!text.contains("truth"), "{text}");
     let text = found(&mut browser, &[("checker", "144 rays")], said);
     assert!(text.as_str().unwrap().starts_with("The mean of 144 rays is the truth"), "{text}");
-    // Rows are told from the top.
+    // Rows are counted from the top.
     let sample = "(floats => [found.view, found.filtered, found.point, Array.from({ length: 443 }, (_, i) => 37 * i)
         .map(i => [i, ...floats.subarray(4 * ((127 - (i >> 7)) * 128 + i % 128)).subarray(0, 4)])
     ])(new Float32Array(found.answers.buffer))";
@@ -86,7 +86,7 @@ fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_squar
                 continue;
             };
             assert!((t / exact - 1.0).abs() < 1e-4, "{t} {exact}");
-            // Farther away 32 bits do not tell the square.
+            // Farther away, 32 bits cannot determine the square.
             if exact > 300.0 {
                 continue;
             }
@@ -94,7 +94,7 @@ fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_squar
             let edge = (at - at.round()).abs().min_element();
             assert!(edge < 2e-3 || (point - light(at)).abs() < 1e-6, "{point} at {at}");
 
-            // The ellipse of the pixel's cone, as wide as the cone and as long as the ray is slanting.
+            // The ellipse of the pixel's cone: as wide as the cone, and longer by the slant of the ray.
             let [_, forward, _, up] = camera.0;
             let width = 2.0 * up.length() / SIDE as f64 * direction.dot(forward) * exact;
             let along = DVec2::new(direction.x, direction.z).normalize();
@@ -121,7 +121,7 @@ fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_squar
             told[1], told[2]
         );
         assert!(4.0 * filtered < point, "{filtered} {point}");
-        // What the figure tells of all pixels is about what this sample finds.
+        // The figure's result for all pixels agrees approximately with this sample.
         let all = [&told[1], &told[2]].map(|of| of.as_f64().unwrap());
         assert!(4.0 * all[0] < all[1], "{all:?}");
         if tilt != "0" {

@@ -1,4 +1,4 @@
-//! 42's digits of a discriminant, held to exact products and to floats.
+//! 42's digits of a discriminant, compared with exact products and with floats.
 
 use reference::rational::rational;
 
@@ -17,7 +17,7 @@ fn operands([ox, oy]: [f32; 2], [dx, dy]: [f32; 2]) -> [String; 2] {
     [&b * &b, a * c].map(|product| (product * rational(1e6)).floor().to_string())
 }
 
-/// The discriminant as `sphere_textbook` computes it in floats, and as `sphere_stable` does.
+/// The discriminant computed in floats as in `sphere_textbook`, and as in `sphere_stable`.
 fn discriminants(o: [f32; 2], d: [f32; 2]) -> [f32; 2] {
     let dot = |a: [f32; 2], b: [f32; 2]| a[0] * b[0] + a[1] * b[1];
     let [a, b, c] = [dot(d, d), dot(o, d), dot(o, o) - 1.0];
@@ -31,7 +31,7 @@ fn the_digits_are_exact_and_the_discriminants_those_of_floats() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "digits");
     let what = "[found.o, found.d, found.operands, [found.textbook, found.stable], found.same, found.held]";
-    // How often a rung says wrongly that the ray hits or misses: a miss is a discriminant below 0.
+    // The number of wrong hits and misses of each rung: a miss is a discriminant below 0.
     let mut wrong = [0; 2];
     for step in (0..=100).step_by(4) {
         for aside in [0, 30, 50, 80, 94, 106, 110] {
@@ -47,7 +47,7 @@ fn the_digits_are_exact_and_the_discriminants_those_of_floats() {
             let length = one.len() == other.len();
             let alike = one.iter().zip(other).take_while(|(one, other)| one == other).count();
             assert_eq!(same, if length { alike } else { 0 }, "{at}");
-            // The last digit that is held is worth more than the float's last bit, the next one less.
+            // The last correct digit is worth more than the float's last bit, the next one less.
             let square: f64 =
                 one.iter().fold(0.0, |sum, digit| sum * 10.0 + f64::from(digit - b'0'));
             let bit = 2f64.powi((square * 1e-6).log2().floor() as i32 - 23);

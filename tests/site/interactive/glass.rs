@@ -1,4 +1,4 @@
-//! 27's ray through glass, held to Snell's and Fresnel's laws as textbooks have them, and to exact balls.
+//! 27's ray through glass, compared with Snell's and Fresnel's laws in textbook form, and with exact balls.
 
 use glam::DVec2;
 use reference::Ray;
@@ -11,10 +11,10 @@ use crate::reading::address;
 
 pub const PAGE: &str = "27_glass.html";
 
-/// Length of a ray that leaves the glass.
+/// The length of a ray that leaves the glass.
 const FAR: f64 = 1000.0;
 
-/// A body as the figure draws it: its corners, or a ball's middle and radius.
+/// A body in the figure: its corners, or a ball's middle and radius.
 struct Body {
     corners: Vec<DVec2>,
     middle: DVec2,
@@ -22,13 +22,13 @@ struct Body {
 }
 
 impl Body {
-    /// The point where a ray meets the body, and the normal on its own side: of an edge by crossing lines.
+    /// The point where a ray hits the body, and the normal on the ray's side; for an edge, by crossing lines.
     fn met(&self, origin: DVec2, d: DVec2, inside: bool) -> Option<(f64, DVec2)> {
-        // No ray meets the surface that it leaves.
+        // No ray hits the surface it leaves.
         let far = |t: f64| t > 1e-6;
         if self.radius > 0.0 {
             let sphere = Sphere { center: self.middle.extend(0.0), radius: self.radius };
-            // A ray from within starts on the ball: the exact one is asked from farther back.
+            // A ray from inside starts on the ball, so the exact one starts farther back.
             let back = if inside { -FAR } else { 0.0 };
             let origin = (origin + back * d).extend(0.0);
             let ray = Ray { origin, direction: d.extend(0.0), tmin: 0.0, tmax: f64::INFINITY };
@@ -52,7 +52,7 @@ impl Body {
     }
 }
 
-/// The angle behind a surface and the part that is reflected: by sines and angles, where the chapter has neither.
+/// The angle behind a surface and the reflected fraction, by sines and angles, which the chapter avoids.
 fn divided(angle: f64, from: f64, to: f64) -> (Option<f64>, f64) {
     let sine = from * angle.sin() / to;
     if sine >= 1.0 {
@@ -66,7 +66,8 @@ fn divided(angle: f64, from: f64, to: f64) -> (Option<f64>, f64) {
     (Some(behind), 0.5 * (across * across + within * within))
 }
 
-/// Faults of the figure's ray `n`, and of all that come of it; the number that are right goes to `count`.
+/// The faults of the figure's ray `n` and of all rays that follow from it; the number of correct ones is
+/// added to `count`.
 fn held(
     rays: &[Value],
     n: usize,
@@ -145,7 +146,7 @@ fn each_part_of_a_ray_goes_where_snell_says_with_the_light_that_fresnel_says() {
         let rays = told["rays"].as_array().unwrap();
         held(rays, 1, &drawn, number, (from, (to - from).normalize(), false, 1.0), &mut count);
 
-        // The brightest way, in words.
+        // The brightest path, in words.
         let said = browser.run("figure.said.textContent");
         let said = said.as_str().unwrap();
         let surfaces = told["surfaces"].as_array().unwrap();
@@ -153,7 +154,7 @@ fn each_part_of_a_ray_goes_where_snell_says_with_the_light_that_fresnel_says() {
         assert_eq!(surfaces.is_empty(), said.contains("misses the glass"), "{said}");
         let total = surfaces.iter().take(4).filter(|surface| surface["reflected"] == 1.0).count();
         assert_eq!(said.matches("total reflection").count(), total, "{said}");
-        // What enters a slab or a ball leaves it at its next surface.
+        // A ray that enters a slab or a ball leaves it at the next surface.
         assert!(body == "prism" || total == 0, "{said}");
         if body == "slab" {
             let direction = |n: usize| {
@@ -167,7 +168,7 @@ fn each_part_of_a_ray_goes_where_snell_says_with_the_light_that_fresnel_says() {
                 direction(7)
             );
         }
-        // The chart: the part reflected at 256 angles, into the glass and out of it.
+        // The chart: the reflected fraction at 256 angles, into the glass and out of it.
         let curves: Vec<f64> = serde_json::from_value(told["curves"].clone()).unwrap();
         for (i, both) in curves.chunks(4).enumerate() {
             let angle = std::f64::consts::FRAC_PI_2 * i as f64 / 255.0;

@@ -1,4 +1,4 @@
-//! 28's thin lens, held to the drawing, to exact rays and to what the chapter measures.
+//! 28's thin lens, compared with the drawing, with exact rays and with the chapter's measurements.
 
 use std::fs;
 
@@ -26,7 +26,7 @@ fn near(a: f64, b: f64) -> bool {
 fn the_circle_is_as_large_as_rays_from_the_rims_make_it() {
     let mut browser = Browser::start();
     shown(&mut browser, &address(PAGE), "lens");
-    // As the page has it, the light behind the plane in focus of the drawing.
+    // Initially, the light behind the plane in focus is that of the drawing.
     let told = found(&mut browser, &[], "found");
     let svg = fs::read_to_string(root().join("docs/images/thin_lens.svg")).unwrap();
     let half = number(&told["c"]) / 2.0;
@@ -55,7 +55,7 @@ fn the_circle_is_as_large_as_rays_from_the_rims_make_it() {
             let at = origin + plane.intersect_exact(&exact).unwrap().to_f64().t * direction;
             assert!(near(at.y, crossing), "{at} {ray}");
             spread = (spread.0.min(crossing), spread.1.max(crossing));
-            // The lens makes the film's image of the plane in focus, in proportion to their distances.
+            // The film shows an image of the plane in focus, in proportion to their distances.
             let film = number(&told["film"]);
             assert!(near(on_film, -crossing * film / focus), "{ray}");
         }
@@ -68,7 +68,7 @@ fn the_circle_is_as_large_as_rays_from_the_rims_make_it() {
                 "{told}"
             );
         }
-        // What c looks like from the eye, in a picture of 600 pixels and 37 degrees.
+        // The apparent size of c from the eye, in a picture of 600 pixels and 37 degrees.
         let half = (f64::atan(number(&told["c"]) / 2.0 / focus)).tan() / 18.5f64.to_radians().tan();
         assert!(near(300.0 * 2.0 * half, number(&told["pixels"])), "{told}");
         let said = browser.run("figure.said.textContent");
@@ -76,7 +76,7 @@ fn the_circle_is_as_large_as_rays_from_the_rims_make_it() {
         assert!(said.as_str().unwrap().starts_with(&start), "{said}");
     }
 
-    // The chapter's lamps, 40 for its 1: their formula, and what its pictures have.
+    // The chapter's lamps, scaled by 40: their formula, and the result of its pictures.
     let given = stored("28_depth_of_field/circles");
     let mut lamp = |light: &str| {
         let controls = [("aperture", "40"), ("focus", "200"), ("light", light)];

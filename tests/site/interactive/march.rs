@@ -1,4 +1,4 @@
-//! 21's marches over a section through a land, held to the exact hit and to what the page says of them.
+//! 21's marches over a section of a land, compared with the exact hit and with the page's statements.
 
 use reference::Ray;
 use reference::heightfield::Heightfield;
@@ -10,7 +10,7 @@ use crate::reading::address;
 
 pub const PAGE: &str = "21_heightfield.html";
 
-/// Of a march: how many heights it asks for, of each its t and what is told, the hit's t, and whether it went
+/// A march: the number of heights it evaluates, the t and height of each, the hit's t, and whether it passed
 /// through the ground.
 type March = (usize, Vec<[f64; 2]>, f64, bool);
 
@@ -30,7 +30,7 @@ fn told(browser: &mut Browser, [slope, eye, aim]: [i64; 3]) -> Found {
     (k, ray, truth, marches)
 }
 
-/// The land of the figure, whose steepest slope is `k`.
+/// The figure's land, whose steepest slope is `k`.
 fn land(k: f64) -> Heightfield {
     let [a, fx, b, gx] = [8.0, 1.0 / 256.0, 3.0, 1.0 / 32.0];
     Heightfield { k, a, fx, fz: 0.0, b, gx, gz: 0.0, lipschitz: k }
@@ -43,8 +43,8 @@ fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_tha
     shown(&mut browser, &address(PAGE), "march");
     let mut random = Random(21);
     let mut within = |low: i64, high: i64| low + random.below((high + 1 - low) as usize) as i64;
-    // The page: "try each march at slopes of 1, 3 and 6". Where the figure begins, the relaxed one is right to a pixel
-    // on gentle slopes, and goes through the ground of the steepest.
+    // The page: "try each march at slopes of 1, 3 and 6". Initially, the relaxed one is right to a pixel on
+    // gentle slopes, and passes through the ground of the steepest.
     let begin = found(
         &mut browser,
         &[],
@@ -75,13 +75,13 @@ fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_tha
         for (rung, (asked, places, t, through)) in marches.iter().enumerate() {
             let what = format!("{controls:?}, {rung}: {t}, not {exact}");
             assert_eq!(places.len(), *asked, "{what}");
-            // The figure's land is the reference's.
+            // The figure's land equals the reference's.
             for [t, above] in places {
                 let at = line.at(*t);
                 assert!((at.y - land.height(at.x, 0.0).0 - above).abs() < 1e-3, "{what}");
             }
             if rung < 2 {
-                // The steps of the page: 0.4 of the height, or what no slope can catch up with.
+                // The steps on the page: 0.4 of the height, or the longest that is safe for every slope.
                 let part = [0.4, 1.0 / (k * line.direction.x - line.direction.y)][rung];
                 for two in places.windows(2) {
                     let step = part * two[0][1];
@@ -97,7 +97,7 @@ fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_tha
             } else {
                 assert_eq!(*t, 0.0, "{what}");
             }
-            // Only the relaxed march goes through.
+            // Only the relaxed march passes through.
             assert!(!through || rung == 0, "{what}");
             // "If m > 2.5, a step of 0.4 of the height ends below the ground."
             let below = places.iter().any(|[t, above]| *t > 0.0 && *above < -1e-3);
@@ -109,7 +109,8 @@ fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_tha
     assert!(hits > 75 && wrong.iter().all(|wrong| *wrong > hits / 2), "{hits} {wrong:?}");
     assert!(gone[..5] == [0; 5] && gone.iter().sum::<usize>() > 1, "{gone:?}");
 
-    // The page's picture of a march that gives up: over flat ground each step leaves the same part of the way.
+    // The page's picture of a march that gives up: over flat ground, each step leaves the same fraction of
+    // the path.
     let (.., truth, [relaxed, ..]) = told(&mut browser, [0, 6, -1]);
     let left = truth.unwrap() * (1.0 - 0.4 * 7.0 / 480f64.hypot(7.0)).powi(300);
     assert!((relaxed.2 - (truth.unwrap() - left)).abs() < 0.01 && relaxed.0 == 300);

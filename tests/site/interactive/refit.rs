@@ -1,4 +1,4 @@
-//! 14's two trees of moving triangles, held to rays through their boxes.
+//! 14's two trees of moving triangles, compared with rays through their boxes.
 
 use std::array::from_fn;
 
@@ -13,13 +13,13 @@ use crate::reading::address;
 
 pub const PAGE: &str = "14_animation.html";
 
-/// Content of the figure: its triangles, the boxes of both trees, a ray's average cost, the number of boxes that
-/// the ray meets, and its depth.
+/// The figure's contents: its triangles, the boxes of both trees, a ray's average cost, the number of boxes
+/// hit by the ray, and its depth.
 type Found = (Vec<[[f64; 2]; 3]>, [Vec<[[f64; 2]; 2]>; 2], [f64; 2], [usize; 2], f64);
 
-/// Each level of the figure's boxes grows by this.
+/// Each level of the figure's boxes is larger by this.
 const GAP: f64 = 5.0;
-/// Positions of the leaves in a list that has each box before those within.
+/// The positions of the leaves in a list with each box before those inside it.
 const LEAVES: [usize; 4] = [2, 3, 5, 6];
 const PARENTS: [[usize; 3]; 3] = [[1, 2, 3], [4, 5, 6], [0, 1, 4]];
 
@@ -40,7 +40,7 @@ fn around<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
     [low, high]
 }
 
-/// The two triangles that each leaf is around, and nothing else: all four leaves hold all triangles.
+/// The two triangles of each leaf, and nothing else: the four leaves together contain all triangles.
 fn pairs(triangles: &[[[f64; 2]; 3]], boxes: &[[[f64; 2]; 2]]) -> [[usize; 2]; 4] {
     let pairs = LEAVES.map(|leaf| {
         let all = (0..8).flat_map(|i| (i + 1..8).map(move |j| [i, j]));
@@ -68,7 +68,7 @@ fn line(origin: DVec3, direction: DVec3) -> Ray {
     Ray { origin, direction, tmin: f64::NEG_INFINITY, tmax: f64::INFINITY }
 }
 
-/// Number of boxes met by random lines that meet the first.
+/// The number of boxes hit by random lines that hit the first.
 fn counted(boxes: &[[[f64; 2]; 2]]) -> f64 {
     let boxes: Vec<Aabb> = boxes.iter().map(flat).collect();
     let mut random = Random(14);
@@ -101,7 +101,7 @@ fn the_trees_hold_all_triangles_and_cost_what_random_rays_meet() {
                 told(&mut browser, motion, frame, 10 + 3 * frame / 2);
             let what = format!("{motion}, frame {frame}: {costs:?}");
             let [updated, anew] = boxes.each_ref().map(|boxes| pairs(&triangles, boxes));
-            // An update keeps the pairs of the first frame.
+            // An update preserves the pairs of the first frame.
             assert_eq!(*first.get_or_insert(anew), updated, "{what}");
             // The ray of the figure is level.
             let ray = line(DVec3::new(12.0, y, 0.0), DVec3::X);
@@ -118,7 +118,7 @@ fn the_trees_hold_all_triangles_and_cost_what_random_rays_meet() {
             assert!(said.as_str().unwrap().contains(&ratio), "{said}, not {ratio}");
         }
     }
-    // "Worst is a piece that leaves its neighbours": as far as the flag that unfolds.
+    // "Worst is a piece that leaves its neighbours": about as bad as the unfolding flag.
     assert!(worst[0] > 1.4, "{worst:?}");
     assert!(worst[1] < 1.1, "{worst:?}");
     // "A wave passes, and the next is like the last."

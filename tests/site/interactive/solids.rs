@@ -1,4 +1,4 @@
-//! 22's two solids, held to the reference's intervals and boundaries.
+//! 22's two solids, compared with the reference's intervals and boundaries.
 
 use glam::DVec3;
 use reference::Ray;
@@ -12,8 +12,8 @@ use crate::reading::address;
 
 pub const PAGE: &str = "22_solids.html";
 
-/// The figure's account of a ray: of what is met first the t, the part, whether the ray comes into that part and
-/// whether into the solid.
+/// The figure's result for a ray: for the first hit, its t and part, whether the ray enters that part, and
+/// whether it enters the solid.
 type Found = ([f64; 2], [f64; 2], Vec<Vec<Option<f64>>>, bool, Option<(f64, usize, bool, bool)>);
 
 const WHAT: &str = "[found.ray.eye, found.ray.d, found.solid, found.begins, \
@@ -45,7 +45,7 @@ fn the_intervals_and_the_first_face_are_those_of_the_reference() {
     shown(&mut browser, &address(PAGE), "solids");
     let mut random = Random(22);
     let mut within = |low: usize, high: usize| low + random.below(high + 1 - low);
-    // How often each part is met first from its outside and from its inside, and how often nothing is.
+    // The number of first hits of each part from its outside and from its inside, and the number of misses.
     let (mut met, mut missed) = ([[0; 2]; 2], 0);
     for number in 0..240 {
         let operation = ["union", "intersection", "difference", "inverse"][number % 4];
@@ -79,12 +79,12 @@ fn the_intervals_and_the_first_face_are_those_of_the_reference() {
             continue;
         };
         assert!((t - boundary.t).abs() < 1e-9 && enters == boundary.enters, "{what}");
-        // The ball is named first, then the four faces.
+        // The ball comes first, then the four faces.
         let named = boundary.through.iter().map(|face| usize::from(*face > 0));
         assert!(named.clone().all(|named| named == part), "{what}, not {boundary:?}");
         let into = parts()[part].contains(ray.at(t + 1e-6));
         assert_eq!(comes, into, "{what}");
-        // What a difference takes away is seen from its inside.
+        // A part removed by a difference is seen from its inside.
         assert!(operation != "difference" || begins || comes == (part == 0), "{what}");
         let side = if comes { "outside" } else { "inside" };
         let said = browser.run("figure.said.textContent");

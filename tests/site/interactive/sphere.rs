@@ -1,4 +1,4 @@
-//! 42's sphere by each rung, held to the exact one.
+//! 42's sphere by each rung, compared with the exact one.
 
 use reference::Ray;
 use reference::sphere::Sphere;
@@ -22,7 +22,7 @@ fn the_spheres_agree_with_the_exact_ones() {
             rays: Array.from({{ length: 57600 }}, (_, i) => i).filter(i => i % {EVERY} === 0)
                 .map(i => [i, ...found.answers.slice(4 * i, 4 * i + 4)]) }})"
     );
-    // What the rungs gave with Vulkan on llvmpipe, over all rays.
+    // The results of the rungs with Vulkan on llvmpipe, over all rays.
     let given = stored("42_distant_spheres/errors");
     let given = |name: String| given["values"][&*name].as_f64().unwrap();
     for (steps, distance) in [(0, 1), (40, 100), (80, 10_000)] {
@@ -35,7 +35,8 @@ fn the_spheres_agree_with_the_exact_ones() {
             for [index, t, x, y, z] in rays {
                 let ray = Ray::from_f32(eye, [x, y, z].map(f32::from_bits), 0.0, f32::INFINITY);
                 let exact = sphere.intersect_exact(&ray).map_or(0.0, |hit| hit.to_f64().t);
-                // What the script holds the rungs to. The answers' first line is the lowest one.
+                // The values that the script compares the rungs with. The first line of the results is the
+                // lowest one.
                 let (line, column) = (239 - index as usize / 240, index as usize % 240);
                 let truth = told["truths"][240 * line + column].as_f64().unwrap();
                 assert!((truth - exact).abs() <= 1e-12 * exact, "{truth} {exact}");
@@ -49,8 +50,8 @@ fn the_spheres_agree_with_the_exact_ones() {
                 }
             }
             assert!(hits > 400, "{hits}");
-            // A two-float has 48 bits; its last rounding costs half a place. Another device may round
-            // the direction and a quotient otherwise: a factor of 2 for the worst of the rays.
+            // A two-float has 48 bits; its last rounding costs half a place. Another device may round the
+            // direction and a quotient differently: a factor of 2 for the worst of the rays.
             let (most_wrong, most) = match rung {
                 "two-float" => (0.0, 0.5001),
                 _ => {
@@ -63,7 +64,7 @@ fn the_spheres_agree_with_the_exact_ones() {
             assert!(worst <= most, "{rung}, {distance}: {worst} ULP");
         }
     }
-    // The page's own figures, to a tenth: 746 ULP, and 25 % of false hits.
+    // The page's own figures, to within a tenth: 746 ULP, and 25 % of false hits.
     let what = "[found.median, found.falseHits / 240 ** 2]";
     let told = found(&mut browser, &[("distance", "80"), ("rung", "textbook")], what);
     for (at, figure) in ["p50", "false_hits"].into_iter().enumerate() {

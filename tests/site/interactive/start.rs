@@ -1,4 +1,4 @@
-//! The start of 41's shadow ray, held to what it hits.
+//! The start of 41's shadow ray, compared with its hits.
 
 use glam::DVec3;
 use reference::Ray;
@@ -14,13 +14,13 @@ const PAGE: &str = "41_ray_offset.html";
 #[test]
 #[ignore = "nightly only: in a browser"]
 fn the_starts_hit_their_surface_where_the_figure_says_acne() {
-    // The surface of the figure, from corner to corner.
+    // The figure's surface, from corner to corner.
     let [low, high] = [0.1f32, 0.7].map(f64::from);
     let corners = [[0.0, low, -8.0], [0.0, low, 8.0], [2.0, high, 0.0]].map(DVec3::from);
     let mut browser = Browser::start();
     shown(&mut browser, &address(PAGE), "start");
     let mut acne = 0;
-    // In steps of the sliders: 20 are ten times as much.
+    // In steps of the sliders: 20 steps are a factor of ten.
     for point in ["along the ray", "by corners"] {
         for distance in ["0", "20", "40", "80"] {
             for step in ["0", "20", "35", "60"] {
@@ -50,7 +50,8 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
                 let said = said.as_str().unwrap();
                 assert!(said.contains(&format!("the step is {verdict}. ")), "{told}: {said}");
                 acne += usize::from(hits);
-                // From the bound on no start by corners lies below, however far the eye is.
+                // From the bound on, no start computed by corners is below the surface, however far the eye
+                // is.
                 let safe = 1e-8 * 10f64.powf(step.parse::<f64>().unwrap() / 20.0)
                     >= told["bound"].as_f64().unwrap();
                 let all = told["acne"].as_f64().unwrap();
@@ -59,7 +60,8 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
         }
     }
     assert!(acne > 2, "{acne}");
-    // Within a power of four the start moves and the picture does not; the legend has only what is in view.
+    // Within a power of four, the start moves and the picture does not; the legend only lists visible
+    // objects.
     let place = "[document.querySelector('.figure .stage svg text').textContent,
         Number(document.querySelector('.figure .stage .begin:not(.key)').getAttribute('cy')),
         document.querySelector('.figure .key.sheet').hidden]";
@@ -71,7 +73,7 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
     assert_eq!([&*low.0, &*high.0, &*next.0], ["10⁻⁵", "10⁻⁵", "10⁻⁴"]);
     assert!(low.1 - high.1 > 20.0, "{low:?} {high:?}");
     assert!(low.2 && !sheet.2, "{low:?} {sheet:?}");
-    // The page: a short step has acne, a long one leaks.
+    // The page's statement: a short step has acne, a long one leaks.
     let part = "[found.acne, found.leaks]";
     let far = [("point", "along the ray"), ("distance of the eye", "80"), ("step", "20")];
     assert!(found(&mut browser, &far, part)[0].as_f64().unwrap() > 0.3);

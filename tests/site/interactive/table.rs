@@ -1,4 +1,4 @@
-//! The shader binding table of 01 and 07, held to the records that the pages print.
+//! The shader binding tables of 01 and 07, compared with the records printed on the pages.
 
 use serde_json::json;
 
@@ -43,7 +43,7 @@ fn the_tables_lead_to_the_records_that_the_pages_print() {
         let wanted = if inside { json!([expected[3].to_string()]) } else { json!([]) };
         assert_eq!(read, wanted);
     }
-    // Instance 3 has the records 6 and 7: geometry 1 at a stride of 2 leads to the next instance's first.
+    // Instance 3 has the records 6 and 7: geometry 1 at a stride of 2 gives the next instance's first.
     let said = "[found.record, found.owner, document.querySelector('.figure .said').textContent]";
     for (stride, geometry, record, owner) in [("1", "1", 7, 3), ("2", "0", 6, 3), ("2", "1", 8, 4)]
     {

@@ -1,4 +1,4 @@
-//! 02's point in a triangle, held to the exact hit.
+//! 02's point in a triangle, compared with the exact hit.
 
 use std::fs;
 
@@ -57,7 +57,7 @@ fn the_weights_are_those_of_the_exact_hit() {
     }
     assert!(hits > 20 && hits < 90, "{hits}");
 
-    // The drawing of the mixed color, at a place where no point lies upon it.
+    // The drawing's mixed color, at a place that no point covers.
     found(&mut browser, &[("x", "450"), ("y", "240")], "found");
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mixed.png");

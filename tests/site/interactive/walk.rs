@@ -1,4 +1,4 @@
-//! 30's walk, held to the drawing's own and to brute force.
+//! 30's walk, compared with the drawing's own and with brute force.
 
 use std::fs;
 
@@ -16,7 +16,7 @@ fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
     element.split_once(&format!("{name}=\"")).unwrap().1.split('"').next().unwrap()
 }
 
-/// A row of the walk's table: what is visited, what comes of it, and the stack then.
+/// A row of the walk's table: the visit, its result, and the stack afterwards.
 type Visit = (String, String, Vec<String>);
 
 /// The triangles of the walk's drawing, and its table.
@@ -45,7 +45,7 @@ fn drawn_walk() -> (Vec<[DVec2; 3]>, Vec<Visit>) {
     (triangles, rows)
 }
 
-/// The point where a ray from `eye` enters a triangle: where it is within all three edges.
+/// The point where a ray from `eye` enters a triangle: inside all three edges.
 fn entered(eye: DVec2, towards: DVec2, corners: [DVec2; 3]) -> Option<f64> {
     let turn = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum();
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
@@ -73,7 +73,7 @@ fn the_walks_find_the_nearest_triangle() {
     let corners: Vec<[[f64; 2]; 3]> = serde_json::from_value(drawn[0].clone()).unwrap();
     assert_eq!(corners.iter().map(|all| all.map(DVec2::from)).collect::<Vec<_>>(), triangles);
     assert_eq!([&drawn[1], &drawn[2]], [&json!(rows), &json!("C")]);
-    // Each step shows what its row says.
+    // Each step shows the content of its row.
     for (step, row) in rows.iter().enumerate() {
         found(&mut browser, &[("step", &(step + 1).to_string())], "found");
         let stack = if row.2.is_empty() { vec!["empty".to_owned()] } else { row.2.clone() };

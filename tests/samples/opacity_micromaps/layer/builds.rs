@@ -1,4 +1,4 @@
-//! Builds: what they are given is held to the rules and read, and goes on without micromaps.
+//! Builds: their input is checked against the rules and read, and passed on without micromaps.
 
 use std::ffi::c_void;
 use std::fmt::Write;
@@ -15,17 +15,18 @@ use crate::structures::{
 /// `VK_OPACITY_MICROMAP_FORMAT_4_STATE_KHR`.
 const FOUR_STATES: u32 = 2;
 
-/// Input of a micromap's build.
+/// The input of a micromap's build.
 pub struct Input<'a> {
     data: &'a MicromapData,
     usages: &'a [UsageError],
 }
 
 impl<'a> Input<'a> {
-    /// That of a build, if it is one; what does not depend on addresses is held to the rules.
+    /// The input of a build, if it is for a micromap; everything that does not depend on addresses is
+    /// checked.
     ///
     /// # Safety
-    /// The build is as Vulkan has it.
+    /// The build is valid in Vulkan.
     pub unsafe fn of(
         info: &vk::AccelerationStructureBuildGeometryInfoKHR<'a>,
         record: &mut Record,
@@ -53,7 +54,7 @@ impl<'a> Input<'a> {
         self.usages.iter().map(|usage| usage.count).sum()
     }
 
-    /// Bytes that a micromap of it takes.
+    /// The size of a micromap of it, in bytes.
     pub fn needed(&self) -> u64 {
         let states: u64 = self.usages.iter().map(|u| u64::from(u.count) << (2 * u.level)).sum();
         256 + states.div_ceil(4) + 8 * u64::from(self.triangles())
@@ -62,7 +63,7 @@ impl<'a> Input<'a> {
     /// The states of all triangles, and their finest level.
     ///
     /// # Safety
-    /// Device addresses are those of the host's, as the software driver has them.
+    /// Device addresses are host addresses, as in the software driver.
     unsafe fn read(&self, record: &mut Record) -> (u16, Vec<u8>) {
         let (data, triangles) = (self.data.data, self.data.triangles);
         record.hold(data != 0 && data.is_multiple_of(128), "data of 128");
@@ -93,14 +94,15 @@ impl<'a> Input<'a> {
     }
 }
 
-/// The geometries of a build of another kind as the driver gets them; and, if there are any, the first's micromap.
+/// The geometries of another kind of build as passed to the driver; and, if there are any, the first one's
+/// micromap.
 ///
 /// # Safety
-/// The build is as Vulkan has it.
+/// The build is valid in Vulkan.
 pub unsafe fn passed_on<'a>(
     info: &vk::AccelerationStructureBuildGeometryInfoKHR<'a>,
 ) -> (Vec<vk::AccelerationStructureGeometryKHR<'a>>, Option<&'a TrianglesMicromap>) {
-    // SAFETY: the caller's promise; of a geometry of triangles, triangles may be read.
+    // SAFETY: the caller's promise; the triangles of a geometry of triangles may be read.
     unsafe {
         let count = info.geometry_count as usize;
         let mut all: Vec<_> = if !info.pp_geometries.is_null() {
@@ -130,8 +132,8 @@ pub unsafe extern "system" fn build(
     infos: *const vk::AccelerationStructureBuildGeometryInfoKHR,
     ranges: *const *const vk::AccelerationStructureBuildRangeInfoKHR,
 ) {
-    // SAFETY: the arguments are the caller's. What is read was uploaded by commands that have ended: the samples
-    // wait for each submission.
+    // SAFETY: the arguments are the caller's. The data read here was uploaded by commands that have ended,
+    // because the samples wait for each submission.
     unsafe {
         let infos = std::slice::from_raw_parts(infos, count as usize);
         let ranges = std::slice::from_raw_parts(ranges, count as usize);
@@ -171,7 +173,7 @@ unsafe fn micromap(info: &vk::AccelerationStructureBuildGeometryInfoKHR) {
     record.hold(info.mode == vk::BuildAccelerationStructureModeKHR::BUILD, "mode");
     let source = info.src_acceleration_structure;
     record.hold(source == vk::AccelerationStructureKHR::null(), "no source");
-    // SAFETY: the caller's promise; any address is a number.
+    // SAFETY: the caller's promise; any address may be read as a number.
     let (input, scratch) =
         unsafe { (Input::of(info, &mut record), info.scratch_data.device_address) };
     record.hold(scratch != 0, "scratch");
@@ -202,7 +204,7 @@ unsafe fn bottom_level(
     record.hold(micromap.next.is_null(), "TrianglesMicromap pNext");
     let known = record.get(micromap.micromap).and_then(|known| known.triangles);
     record.hold(known.is_some(), "a micromap that is built");
-    // SAFETY: the caller's promise; indices are of 32 bits.
+    // SAFETY: the caller's promise; indices have 32 bits.
     let (corners, indices) = unsafe {
         let corners = geometry.geometry.triangles.index_data.device_address as *const u32;
         let indices = micromap.indices as *const u32;

@@ -1,4 +1,4 @@
-//! Structures made, measured and destroyed.
+//! Creates, measures and destroys structures.
 
 use ash::vk::{self, Handle};
 
@@ -35,7 +35,7 @@ pub unsafe extern "system" fn create2(
         record.hold(asked.flags == 0, "createFlags");
         record.hold(asked.address != 0 && asked.address.is_multiple_of(256), "address of 256");
         record.hold(asked.size > 0, "size");
-        // Its buffer is no storage buffer.
+        // Its buffer is not a storage buffer.
         record.hold(asked.address_flags == 0, "addressFlags");
         *structure = record.make(asked.size);
         vk::Result::SUCCESS

@@ -1,4 +1,4 @@
-//! A device made and destroyed, and what is made on it that the driver must not hear of.
+//! Creates and destroys a device, and the objects on it that the driver must not see.
 
 use std::ffi::CStr;
 
@@ -15,7 +15,7 @@ pub unsafe extern "system" fn create(
     allocator: *const vk::AllocationCallbacks,
     device: *mut vk::Device,
 ) -> vk::Result {
-    // SAFETY: the loader calls this once for each device; the other arguments are the caller's.
+    // SAFETY: the loader calls this once per device; the other arguments are the caller's.
     unsafe {
         let (Some(get_proc_addr), Ok(known)) =
             (layer::below_device(info), below_extensions(physical))
@@ -35,7 +35,7 @@ pub unsafe extern "system" fn create(
             pp_enabled_extension_names: passed.as_ptr(),
             ..*asked
         };
-        // A driver that knows the features refuses those that it does not have.
+        // A driver that knows the features rejects those it does not have.
         let mut own = Vec::new();
         each(narrow.p_next.cast_mut(), |kind, link| match kind {
             FEATURES => own.push((0, link.cast::<Feature>())),
@@ -70,7 +70,7 @@ pub unsafe extern "system" fn destroy(
     }
 }
 
-/// The driver's function of a name, for a device or one of its command buffers.
+/// The driver's function with a name, for a device or one of its command buffers.
 ///
 /// # Safety
 /// `T` is the type of that function.

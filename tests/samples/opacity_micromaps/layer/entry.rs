@@ -1,4 +1,4 @@
-//! Entry points of the layer for the loader, and the layer's own functions.
+//! The layer's entry points for the loader, and its own functions.
 
 use std::ffi::{c_char, c_void};
 
@@ -7,7 +7,7 @@ use layer::{Negotiation, below};
 
 use crate::{builds, create, device, physical};
 
-/// Settles on version 2 of the interface, the present one.
+/// Negotiates version 2 of the interface, the current one.
 ///
 /// # Safety
 /// `negotiation` can be written.
@@ -32,7 +32,7 @@ unsafe extern "system" fn get_instance_proc_addr(
             "vkEnumerateDeviceExtensionProperties" => physical::extensions as *const c_void,
             "vkGetPhysicalDeviceProperties2" => physical::properties2 as *const c_void,
             "vkGetPhysicalDeviceFeatures2" => physical::features2 as *const c_void,
-            // An extension of the instance, whose functions loaders ask for here, and layers below.
+            // An instance extension, whose functions loaders and layers below look up here.
             "vkSetDebugUtilsObjectNameEXT" => device::name_object as *const c_void,
             _ if instance == vk::Instance::null() => return None,
             _ => return (below::instance(instance).get_proc_addr)(instance, name),
@@ -49,7 +49,7 @@ unsafe extern "system" fn get_device_proc_addr(
     unsafe {
         let below = (below::device(device).get_proc_addr)(device, name);
         let own = match layer::text(name) {
-            // No driver below need have it.
+            // A driver below may lack it.
             "vkCreateAccelerationStructure2KHR" => {
                 return layer::function(create::create2 as *const c_void);
             }

@@ -1,20 +1,20 @@
-//! A Vulkan layer for tests: it offers `VK_KHR_opacity_micromap` above the software driver, which does not know it.
+//! A Vulkan layer for tests: adds `VK_KHR_opacity_micromap` to the software driver, which lacks it.
 //!
-//! Micromaps are records of the layer's own. It holds their structures to the specification, reads their states
-//! from where a device would, and passes builds, pipelines and names on without them: traversal then calls the
-//! any-hit shader for each candidate, as a device may not, but with the same picture.
+//! Micromaps are records of the layer itself. It checks their structures against the specification, reads
+//! their states from where a device would, and passes builds, pipelines and names on without them. Traversal
+//! then calls the any-hit shader for each candidate, which a device may skip, but the picture is the same.
 //!
-//! The variable `MICROMAPS` holds words, separated by commas:
-//! - `level=NUMBER`: the finest level that is taken, with two states and with four; 3 if it is not said, which is
-//!   the least that a device may offer.
-//! - `tell=FILE`: when the device is destroyed, the file gets a line for each thing that was built, and for each
-//!   rule that was broken:
-//!   - `micromap LEVEL STATES`: the bytes of all triangles in the order of their numbers, in hexadecimal digits;
-//!   - `level CORNERS INDICES`: of a bottom level with a micromap, the corners of each primitive and the
-//!     micromap's triangle that it names, with commas between;
-//!   - `pipeline`: one that may meet micromaps;
-//!   - `alive NUMBER`: how many micromaps were not destroyed;
-//!   - `broken WORDS`: a rule that was broken.
+//! The variable `MICROMAPS` contains words, separated by commas:
+//! - `level=NUMBER`: the finest supported level, with two states and with four; by default 3, the least a
+//!   device may support.
+//! - `tell=FILE`: when the device is destroyed, one line is written to the file for each build and for each
+//!   violated rule:
+//!   - `micromap LEVEL STATES`: the bytes of all triangles in order, in hexadecimal digits;
+//!   - `level CORNERS INDICES`: for a bottom level with a micromap, the vertices of each primitive and the
+//!     index of its triangle in the micromap, separated by commas;
+//!   - `pipeline`: one that allows micromaps;
+//!   - `alive NUMBER`: the number of micromaps that were not destroyed;
+//!   - `broken WORDS`: a violated rule.
 
 mod builds;
 mod create;

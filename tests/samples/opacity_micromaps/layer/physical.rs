@@ -1,4 +1,4 @@
-//! Answers about the device: both extensions, their features and limits.
+//! Queries about the device: both extensions, their features and limits.
 
 use std::ffi::{CStr, c_char, c_void};
 
@@ -8,13 +8,13 @@ use layer::below;
 use crate::record::finest;
 use crate::structures::{ADDRESS_COMMANDS_FEATURES, FEATURES, Feature, PROPERTIES, Properties};
 
-/// Extensions that the layer adds, wherever a driver below lacks them.
+/// The extensions added by the layer, unless a driver below supports them.
 pub const EXTENSIONS: [&CStr; 2] = [c"VK_KHR_device_address_commands", c"VK_KHR_opacity_micromap"];
 
 /// The extensions of the device below.
 ///
 /// # Errors
-/// As Vulkan's.
+/// As in Vulkan.
 ///
 /// # Safety
 /// The device is alive.
@@ -67,7 +67,7 @@ pub unsafe extern "system" fn features2(
     physical: vk::PhysicalDevice,
     features: *mut vk::PhysicalDeviceFeatures2,
 ) {
-    // SAFETY: as above; a structure's kind says what it is.
+    // SAFETY: as above; the type of a structure identifies it.
     unsafe {
         let ask = below::instance(physical).core.fp_v1_1().get_physical_device_features2;
         ask(physical, features);
@@ -97,7 +97,7 @@ pub unsafe extern "system" fn properties2(
     }
 }
 
-/// Calls `f` with the kind and the address of every structure of a chain.
+/// Calls `f` with the type and the address of every structure of a chain.
 ///
 /// # Safety
 /// The chain ends in null.

@@ -1,4 +1,4 @@
-//! Records of the layer: objects built, rules broken, and the words of `MICROMAPS`.
+//! The layer's records: built objects, violated rules, and the words of `MICROMAPS`.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -6,10 +6,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use ash::vk::{self, Handle};
 
-/// A micromap of the layer's own.
+/// One of the layer's own micromaps.
 #[derive(Clone, Copy, Default)]
 pub struct Micromap {
-    /// Bytes that it has room for.
+    /// Its capacity in bytes.
     pub size: u64,
     /// Its triangles, once it is built.
     pub triangles: Option<u32>,
@@ -30,7 +30,7 @@ pub fn record() -> MutexGuard<'static, Record> {
 }
 
 impl Record {
-    /// A new micromap; no pointer of a driver's is so large.
+    /// A new micromap, with a handle larger than any pointer of a driver.
     pub fn make(&mut self, size: u64) -> vk::AccelerationStructureKHR {
         self.made += 1;
         let handle = (1 << 62) + self.made;
@@ -42,12 +42,12 @@ impl Record {
         self.micromaps.get_mut(&handle.as_raw())
     }
 
-    /// Tests whether a handle is one of the layer's.
+    /// Returns whether a handle belongs to the layer.
     pub fn has(&self, handle: u64) -> bool {
         self.micromaps.contains_key(&handle)
     }
 
-    /// Removes a handle; true if it was one of the layer's.
+    /// Removes a handle; returns whether it belonged to the layer.
     pub fn remove(&mut self, handle: u64) -> bool {
         self.micromaps.remove(&handle).is_some()
     }
@@ -56,19 +56,19 @@ impl Record {
         self.lines.push(line);
     }
 
-    /// Notes the rule if it is broken.
+    /// Records the rule if it is violated.
     pub fn hold(&mut self, is_kept: bool, rule: impl Display) {
         if !is_kept {
             self.lines.push(format!("broken {rule}"));
         }
     }
 
-    /// Writes all to the file of `tell`, and forgets it.
+    /// Writes everything to the file of `tell`, and clears it.
     pub fn write(&mut self) {
         self.lines.push(format!("alive {}", self.micromaps.len()));
         let lines: String = self.lines.drain(..).map(|line| line + "\n").collect();
         if let Some(file) = word("tell") {
-            // A test that finds no file fails.
+            // If this fails, the test misses the file and fails.
             let _ = std::fs::write(file, lines);
         }
     }
@@ -81,7 +81,7 @@ fn word(name: &str) -> Option<String> {
     words.find(|(known, _)| *known == name).map(|(_, value)| value.to_owned())
 }
 
-/// The finest level that is taken.
+/// The finest supported level.
 pub fn finest() -> u32 {
     word("level").and_then(|level| level.parse().ok()).unwrap_or(3)
 }

@@ -1,5 +1,5 @@
-//! The extension's structures, read from `vulkan_core.h` of 1.4.359 a second time: the framework has its own, and
-//! what is wrong in the one is not wrong in the other.
+//! The extension's structures, transcribed independently from `vulkan_core.h` of 1.4.359: the framework has
+//! its own, so that a mistake in one is not repeated in the other.
 
 use std::ffi::c_void;
 
@@ -18,7 +18,7 @@ pub const PIPELINE_FLAG: u32 = 0x0100_0000;
 /// `VK_BUILD_ACCELERATION_STRUCTURE_…`: compaction, fast trace, fast build, lossy.
 pub const BUILD_FLAGS: u32 = 0x2 | 0x4 | 0x8 | 0x400;
 
-/// Layout of the features of either extension.
+/// The layout of either extension's features.
 #[repr(C)]
 pub struct Feature {
     pub kind: i32,

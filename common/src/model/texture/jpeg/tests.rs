@@ -78,7 +78,7 @@ fn turned(mut jpeg: Vec<u8>, orientation: u8) -> Vec<u8> {
 
 #[test]
 fn a_photograph_that_lies_on_its_side_is_turned() {
-    // Dark, but for 8 light columns at the left.
+    // Dark, except for 8 light columns at the left.
     let light = |x: u32| if x < 8 { [250; 3] } else { [5; 3] };
     let image = RgbImage::from_fn(24, 16, |x, _| image::Rgb(light(x)));
     let mut bytes = Cursor::new(Vec::new());
