@@ -1,4 +1,4 @@
-//! Signals that ask a program to end: Ctrl-C, a closed terminal, or the warning of a batch system before it kills.
+//! Signals that request termination: Ctrl-C, a closed terminal, or a batch system's warning.
 
 /// A received signal.
 #[cfg_attr(not(unix), allow(dead_code))]

@@ -45,12 +45,12 @@ pub fn elsewhere() -> Option<String> {
 /// A folder of sources.
 struct Folder {
     path: PathBuf,
-    /// A copy of it in which the program lies.
+    /// A copy of it that contains the program.
     other: Option<PathBuf>,
 }
 
 impl Folder {
-    /// The folder `built`, or the one in which the program lies, if `built` is gone.
+    /// The folder `built`, or the one that contains the program, if `built` no longer exists.
     fn new(built: PathBuf, is_one: impl Fn(&Path) -> bool) -> Self {
         let program = std::env::current_exe().unwrap_or_default();
         match beside(&program, &built, &is_one) {

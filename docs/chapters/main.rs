@@ -1,13 +1,13 @@
-//! Keeps the book's pages true to the code, and shows readers any two chapters side by side.
+//! Keeps the book's pages consistent with the code, and shows readers any two chapters side by side.
 //!
 //! - `list`: the chapters, what each teaches and builds on
-//! - `diff A B`: what one chapter changes in another: code, shaders and page
+//! - `diff A B`: the changes from one chapter to another: code, shaders and page
 //! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
 //! - `start ../my_tracer`: makes a crate of a reader's own, outside the workspace
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
 //! - `exercise 05.2`: sets up an exercise for a reader, and checks it on each save
-//! - `measure`: runs what gave the pages' values, and fills those in
+//! - `measure`: runs the commands that give the pages' values, and fills those in
 //! - `verify`: runs the commands of pictures, mistakes and values again, and compares
 //! - `merge OUT FILE…`: adds the sums that parts of a long render have saved
 //! - `hard`: runs hard cases and random rays by the textbook's formulas and ours
@@ -15,16 +15,16 @@
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `book`: makes a website of the pages
 //! - `tour`: makes the README's moving picture
-//! - `words`: counts what each page asks of a reader
-//! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
-//!   what to do about it
+//! - `words`: counts the words of each page
+//! - `check`: reports everything that is stale, missing or stray, and every missing thing a page mentions, each
+//!   with a remedy
 //!
-//! The rooms, each of which knows only those below it:
+//! The layers, each of which depends only on those below it:
 //!
-//! - [`pages`]: what stands on them, and whether it is so
-//! - [`exercises`], [`values`], [`mistakes`], [`survey`], [`prices`]: what pages show of each, and its commands
-//! - [`patches`], [`pictures`]: changed editions of the code; what is rendered
-//! - [`programs`]: what is run
+//! - [`pages`]: their contents, and the checks of their statements
+//! - [`exercises`], [`values`], [`mistakes`], [`survey`], [`prices`]: their parts of the pages, and their commands
+//! - [`patches`], [`pictures`]: changed editions of the code; rendered pictures
+//! - [`programs`]: the programs that are run
 
 mod arguments;
 mod chapter_list;

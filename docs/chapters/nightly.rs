@@ -4,7 +4,7 @@
 //! The first words of an ignored test's reason say how it is run:
 //!
 //! - `nightly: WHY; quick: NAME`: by this command. The test NAME is quick and finds the same fault in a
-//! simple case.
+//!   simple case.
 //! - `nightly only: WHY`: by this command; no quick test would find its fault.
 //! - `by hand: WHY`: it measures, draws, or needs arguments.
 //! - `run by NAME`: by another test.

@@ -1,9 +1,9 @@
 //! Interactive figures: a script draws them, with the chapters' own shaders if possible.
 //!
-//! `<!-- touch NAME: CONTROLS -->`, on one line or more, stands above a picture, which is shown where no script runs. NAME is
-//! `docs/site/interactive/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU, and `NAME.txt` if it
-//! needs what a test has stored; [`control`] says how controls are written, and [`shader`] what becomes of the
-//! shader.
+//! `<!-- touch NAME: CONTROLS -->`, on one line or more, comes before a picture, which is shown if no
+//! script runs. NAME is `docs/site/interactive/NAME.js`, with a shader `NAME.frag` next to it if it needs
+//! the GPU, and `NAME.txt` if it needs stored results of a test. [`control`] describes the controls, and
+//! [`shader`] the translation of the shader.
 
 pub mod control;
 pub mod shader;

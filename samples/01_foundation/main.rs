@@ -245,7 +245,7 @@ fn render(
 ) -> Result<(Picture, Report)> {
     story.tell("device", format!("{}, driver {}", chosen.name, chosen.driver));
 
-    // The limits decide how large a picture may be and where bytes may lie.
+    // The limits bound the size of a picture and the alignment of addresses.
     let mut tracing = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
     let mut building = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
     let mut properties =
@@ -616,7 +616,7 @@ fn render(
 
 // ---- The helpers of these steps: memory, buffers, builds, barriers, submission
 
-/// A buffer with memory of its own. `offset` is where its first aligned byte lies, `address` names it.
+/// A buffer with memory of its own. `offset` is that of its first aligned byte, `address` its device address.
 struct Buffer {
     handle: vk::Buffer,
     memory: vk::DeviceMemory,
@@ -685,7 +685,7 @@ impl<'a> Gpu<'a> {
         handle
     }
 
-    /// Memory of the best kind for its place; with addresses for what lies in it or not.
+    /// Memory of the best kind for its place, and with device addresses if needed.
     fn allocate(
         &mut self,
         what: &str,
@@ -880,7 +880,7 @@ impl<'a> Gpu<'a> {
         unsafe { self.device.cmd_pipeline_barrier2(commands, &dependency) };
     }
 
-    /// Submits what was recorded and waits until the device has done it.
+    /// Submits recorded commands and waits until the device has executed them.
     fn submit(&self, commands: vk::CommandBuffer) -> Result<()> {
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
         let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
@@ -933,7 +933,7 @@ impl Candidate {
 fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
     let devices = match unsafe { instance.enumerate_physical_devices() } {
-        // The error of loaders where drivers are installed but none finds its device.
+        // The error of loaders if drivers are installed but none finds its device.
         Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
         devices => devices?,
     };
@@ -990,7 +990,7 @@ fn judge(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Resul
     })
 }
 
-/// The device that `asked` names by number or part of its name, else the best that will do.
+/// The device selected by `asked`, by number or part of its name, or else the best suitable one.
 fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
     let all = candidates.iter().map(Candidate::line).collect::<Vec<_>>().join(" · ");
     let matches = |candidate: &Candidate| match (asked, asked.map(str::parse::<usize>)) {
@@ -1021,7 +1021,7 @@ type Messages = Mutex<Vec<String>>;
 
 const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// Collects what validation says while `then` runs.
+/// Collects validation messages while `then` runs.
 fn hear<R>(
     entry: &Entry,
     instance: &Instance,
@@ -1079,7 +1079,7 @@ impl Story {
     fn tell(&mut self, step: &str, what: String) {
         let line = format!("{step:<10}  {what}");
         if !self.silent {
-            // A reader who closed the pipe is no reason to stop.
+            // A reader who closed the pipe does not stop the program.
             let _ = writeln!(std::io::stdout(), "{line}");
         }
         self.lines.push(line);

@@ -32,7 +32,7 @@ pub fn camera(scene: SceneKind, chess: Camera, count: u32) -> Camera {
     }
 }
 
-/// The shapes of a scene: `count` of them, except in *chess*, where they stand in for pawns and rooks.
+/// The shapes of a scene: `count` of them, except in *chess*, where they replace pawns and rooks.
 ///
 /// The model has the shapes' materials behind its own. The other scenes have no triangles.
 pub fn shapes(scene: SceneKind, count: u32, model: &Model, pieces: &[Instance]) -> Shapes {

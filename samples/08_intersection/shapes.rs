@@ -51,7 +51,7 @@ impl Shapes {
         self.spheres.push(Sphere { center, radius, material });
     }
 
-    /// Adds a box that stands on a point, `half` wide to each side.
+    /// Adds a box on a point, `half` wide to each side.
     pub fn block(&mut self, foot: Vec3, half: f32, height: f32, material: u32) {
         let side = Vec3::new(half, 0.0, half);
         let (low, high) = (foot - side, foot + side + Vec3::Y * height);

@@ -1,4 +1,4 @@
-//! The scenes of this chapter: which mesh stands where, how it is turned, and what is its own.
+//! The scenes of this chapter: the mesh, rotation and flags of each instance.
 
 use anyhow::{Context, Result};
 use common::model::Model;

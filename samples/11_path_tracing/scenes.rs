@@ -22,7 +22,7 @@ common::shader_enum! {
         /// A square that shines at a right angle to one that does not.
         PerpendicularSquares,
     }
-    /// The light of a ray that meets nothing.
+    /// The light of a ray that hits nothing.
     pub enum Sky: SKY { Day, White, Black }
 }
 

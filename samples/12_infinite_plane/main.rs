@@ -1,4 +1,4 @@
-//! 12 · Infinite plane: a surface that no acceleration structure can hold, met before the ray is traced.
+//! 12 · Infinite plane: a surface that fits in no acceleration structure, hit before the ray is traced.
 //!
 //! New since 06_reflection: a plane that bounds each ray and reports itself where the ray reaches it, its
 //! inside and outside, two lights at once, and three scenes.

@@ -1,4 +1,4 @@
-//! The infinite plane and the board that lies on it: what may be set, and what the shaders get of it.
+//! The infinite plane and the board on it: their controls, and the values passed to the shaders.
 
 use common::Controls;
 use common::scene::Placement;

@@ -1,4 +1,4 @@
-//! The scenes of this chapter: what stands on the plane, above it and in it.
+//! The scenes of this chapter: the objects on the plane, above it and in it.
 
 use anyhow::Result;
 use common::model::Model;
@@ -80,7 +80,7 @@ pub fn reflection(material: &Material) -> Vec3 {
 }
 
 impl Preset {
-    /// The preset of a name. `scene` stands on the board; the others take meshes of its model.
+    /// The preset of a name. `scene` is placed on the board; the others use meshes of its model.
     pub fn new(name: PresetName, scene: &Scene) -> Self {
         match name {
             PresetName::Board => board(scene),
@@ -138,7 +138,7 @@ fn four_spheres(scene: &Scene) -> Preset {
     }
 }
 
-/// Balls half sunk into a tilted plane, whose normal is no unit vector.
+/// Balls half sunk into a tilted plane, whose normal is not a unit vector.
 fn pov(scene: &Scene) -> Preset {
     let model = scene.model.clone();
     let plane = HalfSpace::new(Vec3::new(-1.0, 3.0, 1.0), 1.0);

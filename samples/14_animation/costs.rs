@@ -10,7 +10,7 @@ use instruments::Milliseconds;
 /// Maximum number of times kept of each kind: a window may stay open for days.
 const MOST: usize = 10_000;
 
-/// A clock for each of two levels, and what it has told: builds apart from updates.
+/// A clock for each of two levels, and its results: builds separate from updates.
 pub struct Costs {
     levels: [Level; 2],
 }

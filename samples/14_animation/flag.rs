@@ -63,7 +63,7 @@ impl Flag {
         Ok(Self { across, record, cells, vertices, ordered, count, pipeline, gpu, _buffers })
     }
 
-    /// The geometry of its bottom level: the addresses stay, whatever lies there.
+    /// The geometry of its bottom level: the addresses stay the same, whatever is stored there.
     pub fn geometry(&self) -> Geometry {
         Geometry::Triangles {
             vertices: self.vertices.address,

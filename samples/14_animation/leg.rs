@@ -40,7 +40,7 @@ pub fn smooth(x: f32) -> f32 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// A piece through a whole game: its side and kind by number, where it stands at first, and its legs in order.
+/// A piece through a whole game: its side and kind by number, its first place, and its legs in order.
 pub struct Piece {
     pub side: usize,
     pub kind: usize,

@@ -1,4 +1,4 @@
-//! The legs of all pieces, from a text file: who stands where, and who goes where in which frames.
+//! The legs of all pieces, from a text file: their first places, and their moves in ranges of frames.
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;

@@ -7,7 +7,7 @@ use glam::Vec2;
 
 use super::turned::turned;
 
-/// A pole that stands at height 0, with a ball on it.
+/// A pole at height 0, with a ball on it.
 pub fn pole(height: f32, material: usize) -> Mesh {
     let ball = |angle: f32| {
         let (sin, cos) = angle.sin_cos();

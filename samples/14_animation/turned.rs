@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use common::scene::{Mesh, Vertex};
 use glam::{Vec2, Vec3};
 
-/// The height of the table, on which the board and all beside it stand.
+/// The height of the table, on which the board and everything next to it are placed.
 pub const TABLE: f32 = -0.34;
 
 /// A round table top, whose upper side is at height 0.

@@ -1,4 +1,4 @@
-//! The world: what stands, what moves, and what an instance of either is.
+//! The world: its fixed and its moving objects, and the instance of each.
 
 use anyhow::{Context, Result};
 use ash::vk;
@@ -81,7 +81,7 @@ impl World {
         let sides = [white?, black?];
 
         let scene = SceneOnGpu::new(gpu, &host, options)?;
-        // A record for each kind of piece of each side, for all that stands, and for the flag.
+        // A record for each kind of piece of each side, for all fixed objects, and for the flag.
         let pieces = sides.iter().flat_map(|&side| kinds.iter().map(move |&kind| (kind, side)));
         let still = standing.iter().map(|one| (one.mesh, model.meshes[one.mesh].material));
         let record = |(mesh, material): (usize, usize)| InstanceRecord {
@@ -102,7 +102,7 @@ impl World {
         self.records.write((before * size_of::<InstanceRecord>()) as u64, &[record])
     }
 
-    /// Everything at a frame: first what stands, then the pieces, then the flag.
+    /// Everything in a frame: first the fixed objects, then the pieces, then the flag.
     fn shown(&self, frame: u32) -> impl Iterator<Item = Shown> {
         let pieces = 2 * self.kinds.len();
         let still = self.standing.iter().enumerate().map(move |(number, one)| Shown {

@@ -22,7 +22,7 @@ pub struct Alpha {
 }
 
 impl Alpha {
-    /// Of texels of four bytes, row by row.
+    /// Takes the alpha of texels of four bytes, row by row.
     pub fn new(width: u32, height: u32, rgba: &[u8]) -> Self {
         let size @ [width, height] = [width as usize, height as usize];
         let alpha: Vec<u8> = rgba.iter().skip(3).step_by(4).copied().collect();

@@ -8,14 +8,14 @@ use super::curve::{self, State};
 common::shader_enum! {
     /// The way to find a state.
     pub enum Rule {
-        /// Opaque or transparent only where no lookup can answer otherwise.
+        /// Opaque or transparent only if every lookup has that result.
         Conservative,
-        /// The mean of four lookups, held against 0.05 and 0.95.
+        /// The mean of four lookups, compared with 0.05 and 0.95.
         Samples,
     }
 }
 
-/// The distance by which the barycentrics of a hit may lie outside of a triangle, by the rounding of the device.
+/// The distance by which the barycentrics of a hit may be outside of a triangle, by the device's rounding.
 /// Beyond that the shader does not trust a state. `micromap.glsl` has the same number.
 pub const SLACK: f64 = 1.0 / 16384.0;
 

@@ -1,7 +1,7 @@
 //! The order of a triangle's micro-triangles, and how their states are packed: as a device takes them
 //! (Vulkan specification, `VK_KHR_opacity_micromap`).
 
-/// The finest level that the chapter offers.
+/// The finest level supported by the chapter.
 pub const FINEST: u32 = 6;
 
 /// The opacity state of a micro-triangle, by the specification's numbers.

@@ -155,7 +155,7 @@ impl Sample for Demo {
     }
 }
 
-/// The chess set, seen through the screen behind Black: every ray meets it.
+/// The chess set, seen through the screen behind Black: every ray hits the screen.
 fn behind_the_screen() -> Result<Scene> {
     let mut scene = Scene::chess()?;
     let (eye, target) = (DVec3::new(2.4, 2.1, -7.4), DVec3::new(0.3, 1.2, -2.0));

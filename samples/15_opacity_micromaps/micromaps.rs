@@ -16,7 +16,7 @@ use crate::curve::{self, FINEST};
 use crate::on_device::OnDevice;
 use crate::{Level, Way};
 
-/// Bytes that the states of a scene may take. A scene file can ask for more than there is.
+/// The largest size of a scene's states in bytes. A scene file could request more memory than there is.
 const MOST_BYTES: usize = 64 << 20;
 
 common::shader_struct! {
@@ -47,7 +47,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// That of an instance, if it has such a texture.
+    /// The micromap of an instance, if it has such a texture.
     pub fn of(scene: &Scene, instance: usize) -> Option<Self> {
         let instance = &scene.instances[instance];
         let texture = scene.model.materials[instance.material].opacity_texture?;

@@ -72,7 +72,7 @@ struct Targets {
 }
 
 impl GBuffer {
-    /// Notes where each instance stands, and how many triangles it has.
+    /// Records the transform of each instance, and its number of triangles.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self> {
         let placed = scene.instances.iter().map(|instance| {
             let columns =

@@ -32,7 +32,7 @@ common::shader_struct! {
         pub nodes: Address<Node>,
         /// All segments.
         pub segments: Address<Segment>,
-        /// Of each primitive of the build: which segment it is.
+        /// The segment of each primitive of the build.
         pub ids: Address,
     }
 }

@@ -1,4 +1,4 @@
-//! The same strands as triangles: tubes with a number of sides, whose corners lie on the surface.
+//! The same strands as triangles: tubes with a number of sides, whose vertices are on the surface.
 
 use std::f32::consts::{PI, TAU};
 

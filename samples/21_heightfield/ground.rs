@@ -23,11 +23,11 @@ common::shader_struct! {
     pub struct Ground {
         /// Its height.
         pub shape: HeightfieldShape,
-        /// Corners of the box that it lies in.
+        /// Corners of its bounding box.
         pub low: Vec3,
         /// The other corner.
         pub high: Vec3,
-        /// By how much a height above the ground may be wrong that is computed in the box.
+        /// The error bound of a height above the ground that is computed inside the box.
         pub error: f32,
         /// Its material, in the scene's list.
         pub material: u32,
@@ -41,7 +41,7 @@ impl Landscape {
         HeightfieldShape::new(self.k, [2.2, hill, hill], [0.12, 0.125, 0.1875])
     }
 
-    /// The height of the ground, in f64: where pieces stand on it.
+    /// The height of the ground, in f64, for placing pieces on it.
     pub fn height(&self, x: f32, z: f32) -> f64 {
         let HeightfieldShape { k, a, fx, fz, b, gx, gz, .. } = self.shape();
         let [x, z, k, a, fx, fz, b, gx, gz] = [x, z, k, a, fx, fz, b, gx, gz].map(f64::from);

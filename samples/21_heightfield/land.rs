@@ -1,4 +1,4 @@
-//! The ground on the device: one box, beside the pieces that stand on it.
+//! The ground on the device: one box, next to the pieces on it.
 
 use anyhow::Result;
 use common::gpu::{self, AccelerationStructure, Gpu, order};

@@ -77,7 +77,7 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let own = setup.scene_or(scenes::chess)?;
-        // The chess set stands on the hill already.
+        // The chess set is on the hill already.
         let mut source = if setup.scene().is_some() { scenes::framed(own) } else { own };
         source.model.materials.push(scenes::earth());
         let Preset { landscape, camera, sun } = Preset::new(PresetName::Hills);

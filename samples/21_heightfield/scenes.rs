@@ -38,7 +38,7 @@ pub fn chess() -> Result<Scene> {
 /// The longest side of a model from a file: a few pieces wide, in sight of each preset.
 const MODEL: f64 = 2.0;
 
-/// A model from a file, on the middle hill, whatever its unit of length and wherever it stands in its file.
+/// A model from a file, on the middle hill, whatever its unit of length and its place in the file.
 pub fn framed(mut scene: Scene) -> Scene {
     let (low, high) = scene.bounds();
     let (low, high) = (low.as_dvec3(), high.as_dvec3());
@@ -69,7 +69,7 @@ impl Preset {
             PresetName::Hills => (1.0, 6, [-10.0, 5.6, 48.0], [7.4, 1.1, 0.0], 12.0),
             // 60 degrees.
             PresetName::FromAbove => (1.0, 6, [2.5, 17.0, 7.5], [7.6, 1.0, -0.3], 38.0),
-            // 1 degree, by one who stands on the next hill.
+            // 1 degree, for a viewer on the next hill.
             PresetName::NearGround => (1.0, 6, [-10.0, 2.6, 19.0], [8.0, 2.15, 0.0], 18.0),
             PresetName::Steep => (14.0, 3, [-44.0, 30.0, 44.0], [8.0, 15.0, 0.0], 38.0),
             // From a height of 1.

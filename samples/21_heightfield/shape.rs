@@ -49,7 +49,7 @@ impl HeightfieldShape {
         // o + t·d: the product is no longer than origin and point together, and both round.
         let place = origin + 2.0 * reach;
         let place = U * (place.y + lipschitz * place.x.hypot(place.z));
-        // Where on the wave, times its slope; then three roundings of the wave itself.
+        // The error of the position on the wave, times its slope; then three roundings of the wave itself.
         let along_x = 8.0 * U * fx * reach.x + 3.0 * U;
         let along_z = 8.0 * U * (2.0 * fz * reach.z + 0.25) + 3.0 * U;
         let across = 8.0 * U * 2.0 * (gx * reach.x + gz * reach.z) + 3.0 * U;

@@ -1,4 +1,4 @@
-//! Fog of one density, which fills the world but for the solids.
+//! Fog of one density, which fills the world except for the solids.
 
 use common::Controls;
 use glam::Vec3;
@@ -13,7 +13,7 @@ common::shader_struct! {
     pub struct Fog {
         /// Colour of the fog seen from within, linear RGB.
         pub color: Vec3,
-        /// After which way 1/e of the light is left; 0 where there is no fog.
+        /// The distance after which 1/e of the light is left; 0 without fog.
         pub distance: f32,
     }
 }

@@ -18,7 +18,7 @@ pub struct Modifiers {
     pub shape: u32,
     /// Number of planes of its crystal.
     pub planes: u32,
-    /// By how many degrees that one is turned about the vertical.
+    /// Its rotation about the vertical, in degrees.
     pub turn: f32,
     /// Inside and outside are exchanged.
     pub inverse: bool,
@@ -26,7 +26,7 @@ pub struct Modifiers {
     pub hollow: bool,
     /// The cut through each.
     pub cut: Cut,
-    /// The cutting plane in the solid's own space: what lies beyond is gone.
+    /// The cutting plane in the solid's own space: everything beyond it is removed.
     pub cut_normal: Vec3,
     /// Distance of that plane from the solid's origin.
     pub cut_distance: f32,
@@ -64,10 +64,10 @@ impl Modifiers {
         c.checkbox("shared planes", &mut self.shared);
     }
 
-    /// A solid as asked for, and what its surface is clipped by.
+    /// A solid with its modifiers, and the clip of its surface.
     pub fn of(&self, solid: &Solid, clip: Option<Bound>) -> (Solid, Vec<Bound>) {
         let solid = if self.inverse { solid.clone().inverse() } else { solid.clone() };
-        // Without a normal there is no plane, and no cut.
+        // Without a normal there is neither a plane nor a cut.
         let cut =
             (self.cut_normal != Vec3::ZERO).then(|| plane(self.cut_normal, self.cut_distance));
         match (self.cut, cut) {

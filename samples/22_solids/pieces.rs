@@ -1,4 +1,4 @@
-//! Solids that could stand on the board: a die, a lens, and three chess pieces.
+//! Solids suitable for the board: a die, a lens, and three chess pieces.
 
 use glam::{Vec2, Vec3};
 

@@ -18,7 +18,7 @@ common::shader_struct! {
         pub kind: Number<FaceKind>,
         /// Index of the surface.
         pub index: u32,
-        /// -1 where the part lies on the side that the plane's normal points to.
+        /// -1 if the part is on the side that the plane's normal points to.
         pub side: f32,
     }
 }

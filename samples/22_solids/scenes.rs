@@ -181,7 +181,7 @@ fn csg(scene: &Scene) -> Preset {
     Preset::on_board(scene, &[], solids, camera)
 }
 
-/// Behind, solids are clipped by a plane; before them, the same solids meet the same half-space.
+/// Behind, solids are clipped by a plane; in front of them, the same solids are cut by the same half-space.
 fn clipped(scene: &Scene) -> Preset {
     let mut solids = Vec::new();
     for (name, x, height, cut) in [
@@ -224,7 +224,7 @@ fn ties(scene: &Scene) -> Preset {
     Preset::on_board(scene, &[], solids, camera)
 }
 
-/// A solid in its own space, which is the world's but for its turn.
+/// A solid in its own space, which is the world's except for its rotation.
 fn one_solid(scene: &Scene, modifiers: &Modifiers) -> Preset {
     let solid = shapes::shape(modifiers.shape, modifiers.planes);
     let camera = Camera::new(DVec3::new(2.6, 1.9, 3.4), DVec3::new(0.0, -0.1, 0.0), 37.0);

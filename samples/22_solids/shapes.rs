@@ -155,7 +155,7 @@ fn half(side: f32, material: &'static str) -> Solid {
     Solid::Convex(bounds, material)
 }
 
-/// The part of a cube between two of three planes that meet in a line, the vertical through its middle.
+/// The part of a cube between two of three planes that share the vertical line through its middle.
 fn third(from: usize, to: usize) -> Solid {
     let normals = [Vec3::new(1.0, 0.0, 0.3), Vec3::new(-0.4, 0.0, 0.9), Vec3::new(-0.6, 0.0, -1.2)];
     let mut bounds = block(Vec3::NEG_ONE, Vec3::ONE);

@@ -23,7 +23,7 @@ pub enum Bound {
     /// The part lies on the inner side of POV-Ray's `plane { <A,B,C>, D }`: `N·p <= D·|N|`, where the
     /// normal N has any length but 0.
     Plane(Vec3, f32),
-    /// The part lies in a ball.
+    /// The part is inside a ball.
     Ball(Ball),
 }
 
@@ -76,7 +76,7 @@ impl Solid {
         Self::Inverse(Box::new(self))
     }
 
-    /// Tests whether a point lies in it, by f64 numbers.
+    /// Returns whether a point is inside, in f64.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Convex(bounds, _) => bounds.iter().all(|bound| bound.contains(point)),
@@ -113,7 +113,7 @@ impl Solid {
 }
 
 impl Bound {
-    /// Tests whether a point lies on the inner side.
+    /// Returns whether a point is on the inner side.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Plane(normal, distance) => {

@@ -42,7 +42,7 @@ impl Build {
         Placement::new(self.size, self.moved)
     }
 
-    /// Tests whether the pieces also differ, or stand elsewhere.
+    /// Returns whether the pieces also differ, or are in other places.
     pub fn places_otherwise(&self, other: &Self) -> bool {
         Self { modifiers: other.modifiers, ..*self } != *other
     }
@@ -132,7 +132,7 @@ impl SolidsOnGpu {
             let (solid, mut clips) = modifiers.of(&solid_instance.solid, solid_instance.clip);
             let [first_part, part_count, first_step, step_count] =
                 programs.add(&solid, &|name| scenes::material(&scene.model, name));
-            // A solid without end is clipped by the largest box, as if the user had asked for it.
+            // An unbounded solid is clipped by the largest box, as if the user had requested that.
             let (low, high) = solid.bounds()[1];
             if low.min_element() <= -f64::from(REACH) || high.max_element() >= f64::from(REACH) {
                 clips.extend(block(Vec3::splat(-REACH), Vec3::splat(REACH)));
@@ -199,7 +199,7 @@ impl SolidsOnGpu {
 /// 42), for rays that come from as far as sixteen thousand times its size.
 fn box_around(low: DVec3, high: DVec3) -> order::Bounds {
     let margin = 0.01 * (high - low).max_element();
-    // Where a solid is empty, any box will do: its shader finds nothing.
+    // An empty solid needs no particular box, because its shader finds nothing.
     if low.is_finite() && low.cmple(high).all() {
         ((low - margin).as_vec3(), (high + margin).as_vec3())
     } else {

@@ -10,7 +10,7 @@ use super::turned::turned;
 /// Rows of a ball's cells from pole to pole; around it are twice as many.
 pub const ROWS: u32 = 32;
 
-/// A ball that lies at height 0. Its corners lie on the sphere, and its triangles inside.
+/// A ball at height 0. Its vertices are on the sphere, and its triangles inside.
 pub fn ball(radius: f32, material: usize) -> Mesh {
     let ring = |i: u32| {
         let (sin, cos) = (TAU * (i as f32 / ROWS as f32 - 0.5) / 2.0).sin_cos();

@@ -179,7 +179,7 @@ impl Levels {
                         let part = (moment as f32 + 0.5) / plan.moments as f32;
                         let at = between(*poses, part, plan.between);
                         let mut instance = instance_on_gpu(&at, UNDER_WAY | record, 0, blas);
-                        // A ray of one moment has one bit, and what stands has all.
+                        // A ray of one moment has one bit, and fixed objects have all.
                         instance.instance_custom_index_and_mask =
                             vk::Packed24_8::new((UNDER_WAY | record) as u32, 1 << moment);
                         list.push((world.around(*mesh, &at), instance));

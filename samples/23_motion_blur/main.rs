@@ -41,7 +41,7 @@ struct Demo {
     levels: Levels,
     playback: Playback,
     plan: Plan,
-    /// Of a pixel, in each frame.
+    /// The number of samples of a pixel in each frame.
     samples: u32,
     constants: Constants,
     count_calls: bool,
@@ -200,7 +200,7 @@ fn motion(setup: &Setup) -> Result<Motion> {
     legs::open(path)
 }
 
-/// A hit group for triangles as they stand, and one for those that an intersection shader moves.
+/// A hit group for fixed triangles, and one for those that an intersection shader moves.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(

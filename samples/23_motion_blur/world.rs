@@ -1,4 +1,4 @@
-//! The world: what stands, what moves, and where each is while the shutter is open.
+//! The world: its fixed and its moving objects, and the place of each while the shutter is open.
 
 use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu, order};
@@ -75,7 +75,7 @@ impl World {
         let sides = [white?, black?];
 
         let scene = SceneOnGpu::new(gpu, &host, options)?;
-        // A record for each kind of piece of each side, and for all that stands.
+        // A record for each kind of piece of each side, and for all fixed objects.
         let pieces = sides.iter().flat_map(|&side| kinds.iter().map(move |&kind| (kind, side)));
         let still = standing.iter().map(|one| (one.mesh, model.meshes[one.mesh].material));
         let record = |(mesh, material): (usize, usize)| InstanceRecord {

@@ -14,7 +14,7 @@ use crate::shape::{Shape, parts};
 pub struct Batch {
     pub primitive: Primitive,
     pub count: u32,
-    /// Of the longest sum; 1 where there is none.
+    /// The length of the longest sum; 1 if there is none.
     pub samples: u32,
     pub queries: Buffer,
     pub numbers: Buffer,

@@ -1,4 +1,4 @@
-//! A file of hard cases: rays and shapes whose answers are known to 50 digits.
+//! A file of hard cases: rays and shapes with answers known to 50 digits.
 //!
 //! The schema is `rt-hard-cases/2`; the file's `conventions` say how to read it. Whatever is not in
 //! the schema is refused: a case that is misread, or left out, would count as passed.
@@ -18,7 +18,7 @@ use crate::ladder::Primitive;
 use crate::query::Ray;
 use crate::shape::{Leaving, Shape};
 
-/// Every shape stands in one top level: where many overlap, each ray is offered to all of them.
+/// Every shape is in one top level: where many overlap, each ray is tested against all of them.
 const MOST_CASES: usize = 2048;
 
 const SCHEMA: &str = "rt-hard-cases/2";
@@ -27,7 +27,7 @@ const MOST_SAMPLES: u64 = 1 << 33;
 /// Reading takes up to 64 times as much memory: `{"a":0},` becomes a table of its own.
 const LARGEST_FILE: u64 = 8 << 20;
 
-/// One case, ready to be asked.
+/// One case, ready to be run.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub id: String,
@@ -126,7 +126,7 @@ fn parse(text: &str, path: &str) -> Result<Vec<Case>> {
     Ok(cases)
 }
 
-/// The line on which the id stands, counted from 1.
+/// The line with the id, counted from 1.
 fn line_of(text: &str, id: &str) -> Option<usize> {
     let quoted = format!("\"{id}\"");
     text.lines().position(|line| line.contains(&quoted)).map(|index| index + 1)

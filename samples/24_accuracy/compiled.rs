@@ -21,7 +21,7 @@ pub const DISAGREE: f64 = 1.5;
 /// Has the direct pipeline of every rung compiled for every family.
 ///
 /// # Errors
-/// If there is no such compiler, with what to install, or if it refuses a rung.
+/// If there is no such compiler, with a hint what to install, or if it refuses a rung.
 pub fn compile(rungs: &mut [MeasuredRung], progress: &mut Progress) -> Result<()> {
     let mut rows: Vec<&mut MeasuredRung> =
         rungs.iter_mut().filter(|row| row.desc.is_some()).collect();

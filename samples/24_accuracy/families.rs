@@ -39,7 +39,7 @@ pub struct Family {
     /// Pairs of a shape's index and a ray.
     pub rays: Vec<(usize, Ray)>,
     pub expected: Vec<Expected>,
-    /// True if each shape can stand in an acceleration structure: not if there is one per ray.
+    /// True if each shape can be part of an acceleration structure: not if there is one per ray.
     pub is_traced: bool,
 }
 

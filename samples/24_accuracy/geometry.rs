@@ -29,7 +29,7 @@ pub struct Form {
     pub name: String,
     /// Triangles; 0 for the sphere itself.
     pub triangles: usize,
-    /// Of every million pixels that see the sphere, how many do not see this.
+    /// The number of pixels that do not show this, per million that show the sphere.
     pub lost: f64,
     /// Distance of the deepest of them inside the sphere's outline, in pixels of a picture 512 high.
     pub depth: f64,

@@ -32,9 +32,9 @@ struct Findings {
     /// True if `fma()` rounds once here.
     fused: bool,
     cases: usize,
-    /// Cases that a rung was not asked though the device has it. Any is a failure.
+    /// The number of cases that were not run although the device has the rung. Any is a failure.
     skipped: usize,
-    /// Of the origins within which traced answers are held to the bar: the largest coordinate.
+    /// The largest coordinate of the origins for which traced answers have to meet the bound.
     traced_within: f32,
     rungs: Vec<Row>,
     answers: Vec<Line>,

@@ -1,4 +1,4 @@
-//! Is an answer right? The device's f32 against what is known exactly.
+//! Judges an answer: the device's f32 compared with the exact result.
 
 use glam::{DVec3, Vec3};
 use reference::ulp::ulp_error;
@@ -22,12 +22,12 @@ pub enum ExpectedHit {
 #[derive(Clone, Debug)]
 pub struct Expected {
     pub hit: ExpectedHit,
-    /// Of the hit; the mean of a sum.
+    /// The t of the hit; the mean of a sum.
     pub t: Option<f64>,
     pub normal: Option<DVec3>,
     /// Any of these normals will do: at edges and corners of a box.
     pub faces: Vec<DVec3>,
-    /// Of a ray that leaves a sphere: t of the point that it leaves from.
+    /// The t of the point that a ray leaves, for a ray that leaves a sphere.
     pub surface: Option<f64>,
 }
 

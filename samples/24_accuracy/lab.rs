@@ -101,7 +101,7 @@ fn prepare(folder: &Path, files: &[&str]) -> Result<()> {
 }
 
 impl Lab {
-    /// Does what the arguments ask: the laboratory's work, or a picture.
+    /// Runs the requested work: hard cases, measurements or the atlas, or else a picture.
     ///
     /// # Errors
     /// Whatever went wrong.
@@ -118,7 +118,7 @@ impl Lab {
         if let Some(folder) = &self.atlas {
             prepare(folder, &ATLAS)?;
         }
-        // A rung that the device cannot do is told of, and the others are asked.
+        // A rung that the device lacks is reported, and the others are run.
         let mut device = args.device(Requirements::ray_tracing().float64_where_offered());
         let report = options.report.report.clone();
         Instruments::new(options).device(&mut device);

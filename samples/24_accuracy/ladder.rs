@@ -1,4 +1,4 @@
-//! The ladders: what can be asked, and the ways of answering, from cheap to exact.
+//! The ladders: the primitives, and the ways to intersect each, from cheap to exact.
 
 use ash::vk;
 use common::gpu::Gpu;
@@ -97,7 +97,7 @@ impl Code {
     }
 }
 
-/// One way to answer.
+/// One way to intersect.
 #[derive(Debug)]
 pub struct Rung {
     /// Its place on the ladder, such as `S2`.

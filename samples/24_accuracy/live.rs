@@ -40,7 +40,7 @@ pub struct LiveFigures {
 }
 
 impl Live {
-    /// Rays at the specimen, and their true answers.
+    /// Rays to the specimen, and their true answers.
     ///
     /// # Errors
     /// If memory is short.
@@ -67,7 +67,7 @@ impl Live {
         self.specimen
     }
 
-    /// Asks a rung, unless it has been asked.
+    /// Runs a rung, unless it has been run.
     ///
     /// # Errors
     /// If the device fails.
@@ -112,7 +112,7 @@ impl Live {
     }
 }
 
-/// Tests whether a ray meets the unit sphere where the way to the sun leads out of it.
+/// Returns whether a ray hits the unit sphere at a point that faces the sun.
 fn leaves(origin: DVec3, direction: DVec3) -> bool {
     let ray = Ray { origin, direction, tmin: 0.0, tmax: f64::INFINITY };
     let hit = Sphere { center: DVec3::ZERO, radius: 1.0 }.intersect(&ray);

@@ -1,4 +1,4 @@
-//! 24 · Accuracy: the laboratory, where every way of intersecting is asked, timed and held to the truth.
+//! 24 · Accuracy: the laboratory, where every way of intersecting is run, timed and checked.
 //!
 //! New since 42_distant_spheres: the full ladders, hard cases whose answers are known to 50 digits, a
 //! picture of each rung's errors, and what they cost in time.

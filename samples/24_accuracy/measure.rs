@@ -23,7 +23,7 @@ const LEAST: f64 = 5.0;
 const LEAST_ON_SOFTWARE: f64 = 2.0;
 /// And how many the dearest rung may take: a system takes a device that is silent for two seconds for lost.
 const MOST: f64 = 500.0;
-/// The most queries that an invocation answers, so that the launch does not count.
+/// The largest number of queries per invocation, enough to make the launch cost negligible.
 const MOST_REPEATS: u32 = 256;
 const MOST_REPEATS_ON_A_GPU: u32 = 16;
 /// The most invocations for each query, and in all.
@@ -174,7 +174,7 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
     for (answer, expected) in answers.iter().zip(&family.expected) {
         let finite = answer.t.is_finite() && answer.normal.is_finite() && answer.point.is_finite();
         errors.not_finite += usize::from(!finite);
-        // A sum has no hits, but always an answer.
+        // A sum has no hits, but always a result.
         let hit = answer.hit != 0 || family.shapes[0].primitive() == Primitive::Accumulation;
         match (expected.hit == ExpectedHit::Yes, hit) {
             (true, true) => {

@@ -32,7 +32,7 @@ pub struct Measurement {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_compiler: Option<String>,
     pub rungs: Vec<MeasuredRung>,
-    /// The sphere beside its meshes, if all rungs of spheres were asked for.
+    /// The sphere compared with its meshes, if all rungs of spheres were selected.
     pub forms: Vec<Form>,
     /// Shader stages that took part, by path below `shaders/`.
     pub stages: BTreeSet<String>,
@@ -49,9 +49,9 @@ pub struct MeasuredRung {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unavailable: Option<String>,
     pub errors: Vec<Errors>,
-    /// Of the primitive's first family, direct.
+    /// The time on the primitive's first family, direct.
     pub time: Option<Time>,
-    /// Of every family, where a rung takes as many steps as a ray is hard.
+    /// The times on every family, if a rung's number of steps depends on the ray.
     pub marches: Vec<March>,
     /// Estimates of a GPU's compiler, called directly: one program per family.
     pub compiled_for: Vec<Compiled>,

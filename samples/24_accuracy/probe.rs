@@ -1,4 +1,4 @@
-//! Asks the device: queries go to its shaders, answers come back.
+//! Runs rungs on the device: queries go to its shaders, and answers come back.
 
 use anyhow::Result;
 use ash::vk;
@@ -50,7 +50,7 @@ impl Load {
     }
 }
 
-/// By which way a rung is asked.
+/// The way in which a rung is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// The raygen shader calls the intersection.
@@ -59,10 +59,10 @@ pub enum Way {
     Traced,
 }
 
-/// The specialization constant that says whether `fma()` rounds once.
+/// The specialization constant that is 1 if `fma()` rounds once.
 const FUSED: u32 = 1;
 
-/// A rung made ready to be asked one way.
+/// A rung with its pipeline, ready to be run in one way.
 pub struct Instrument {
     pub way: Way,
     device: bool,
@@ -93,7 +93,7 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// Finds out what the device's `fma()` does.
+    /// Determines whether the device's `fma()` rounds once.
     ///
     /// # Errors
     /// If a shader or a buffer cannot be made.
@@ -102,7 +102,7 @@ impl Probe {
         let pipeline = probe.pipeline("fma.rgen", Primitive::Sphere, 0).build(gpu)?;
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
         let instrument = Instrument { way: Way::Direct, device: false, pipeline, sbt };
-        // a·a = 1 + 2^-11 + 2^-24, and rounded 1 + 2^-11: only what is rounded once keeps the rest.
+        // a·a = 1 + 2^-11 + 2^-24, rounded to 1 + 2^-11: only a single rounding preserves the rest.
         let a = 1.0 + 2f32.powi(-12);
         let numbers = [Vec3::new(a, a, -(1.0 + 2f32.powi(-11)))];
         let ray = Ray { origin: Vec3::ZERO, direction: Vec3::X, tmin: 0.0, tmax: 1.0 };
@@ -167,7 +167,7 @@ impl Probe {
         Ok(Instrument { way, device, pipeline, sbt })
     }
 
-    /// Asks every query of the batch.
+    /// Runs every query of the batch.
     ///
     /// # Errors
     /// If the device fails.
@@ -176,7 +176,7 @@ impl Probe {
         batch.answers.read()
     }
 
-    /// Asks every query as often as the load says, and leaves the answers on the device: its milliseconds.
+    /// Runs every query as often as the load says, keeping the results on the device: its milliseconds.
     ///
     /// # Errors
     /// If the device fails.

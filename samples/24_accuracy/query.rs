@@ -1,4 +1,4 @@
-//! Queries and answers of the device: a ray and a shape, and whether and where they meet.
+//! The device's queries and answers: a ray and a shape, and their intersection.
 
 use glam::Vec3;
 

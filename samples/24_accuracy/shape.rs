@@ -50,17 +50,17 @@ pub struct Heightfield {
     pub lipschitz: f32,
 }
 
-/// A ray's start on a sphere, and the shape it may meet.
+/// A ray's start on a sphere, and the shape it may hit.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaving {
     pub center: Vec3,
     pub radius: f32,
     pub direction: Vec3,
-    /// Without one, the query's ray finds the point, and the same sphere must not be met again.
+    /// Without one, the query's ray finds the point, and must not hit the same sphere again.
     pub gap: Option<Gap>,
 }
 
-/// A point of a sphere, and a plane above it that must be met.
+/// A point of a sphere, and a plane above it that must be hit.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
     pub point: Vec3,

@@ -29,7 +29,7 @@ const TILTED: Vec3 = Vec3::new(1.0, 2.0, 0.6);
 pub struct Specimen {
     /// Position in [`PRIMITIVES`].
     pub primitive: u32,
-    /// Of the camera from the shape, in radii; of plane and instance from the world's origin.
+    /// The distance of the camera from the shape, in radii; of plane and instance from the world's origin.
     pub distance: f32,
 }
 

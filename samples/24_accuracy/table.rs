@@ -158,7 +158,7 @@ fn errors(ladder: &[MeasuredRung]) -> String {
     text + "\nTraced rays are listed only where their figures differ from those of direct rays.\n"
 }
 
-/// Rays that leave a surface have no error but that they meet it again, or pass what is near.
+/// For rays that leave a surface, the only errors are to hit it again, or to miss a close surface.
 fn departures(ladder: &[MeasuredRung]) -> String {
     let families = ladder.iter().find(|row| !row.errors.is_empty());
     let families: Vec<_> =

@@ -1,4 +1,4 @@
-//! A composition: everything that a picture is made from, meshes and what is no mesh.
+//! A composition: everything in a picture, meshes and other objects.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -33,7 +33,7 @@ pub struct Heightfield {
     pub square: f32,
 }
 
-/// A light, and whether what stands in its way casts a shadow.
+/// A light, and whether objects in its way cast a shadow.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneLight {
     /// The light, as a disk.
@@ -66,7 +66,7 @@ pub struct Composition {
     pub scene: Scene,
     /// The camera's lens.
     pub lens: ThinLens,
-    /// A finish for each material; none for those that nothing wears.
+    /// A finish for each material; none for unused ones.
     pub finishes: Vec<Finish>,
     /// At most [`MAX_LIGHTS`].
     pub lights: Vec<SceneLight>,
@@ -106,7 +106,7 @@ pub const MAX_LIGHTS: usize = 4;
 pub const FOCUS: RangeInclusive<f32> = 0.015625..=1024.0;
 
 impl Composition {
-    /// Meshes as they stand, under the lights of their file, or else under a sun.
+    /// Meshes in place, under the lights of their file, or else under a sun.
     pub fn of_meshes(mut scene: Scene) -> Self {
         let model = &mut scene.model;
         if model.lights.len() > MAX_LIGHTS {
@@ -148,7 +148,7 @@ impl Composition {
         composition
     }
 
-    /// The materials that something wears, each once, in the model's order.
+    /// The used materials, each once, in the model's order.
     pub fn materials_in_use(&self) -> impl Iterator<Item = &Material> {
         self.in_use().into_iter().map(|index| &self.scene.model.materials[index])
     }
@@ -168,7 +168,7 @@ impl Composition {
         self.spheres.iter().filter(|sphere| sphere.moves != Vec3::ZERO).count()
     }
 
-    /// Tests whether a material may become glass: neither a strand nor a moving object wears it.
+    /// Returns whether a material may become glass: no strand and no moving object uses it.
     pub fn may_be_glass(&self, material: u32) -> bool {
         let moves = |sphere: &Sphere| sphere.material == material && sphere.moves != Vec3::ZERO;
         !self.strands.segments.iter().any(|segment| segment.material == material)

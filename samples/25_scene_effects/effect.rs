@@ -1,4 +1,4 @@
-//! Effects: what a scene may call for. Each is one bit.
+//! Effects that a scene may trigger. Each is one bit.
 //!
 //! A chapter that adds an effect says so in its metadata (`effects` in Cargo.toml) and adds a row to
 //! [`Effect`], and to `finding.rs` the condition and the reason; a test fails until it has.

@@ -26,7 +26,7 @@ pub fn findings(scene: &Composition) -> Vec<Finding> {
     Effect::ALL.iter().map(finding).collect()
 }
 
-/// The effects that findings call for.
+/// The effects that findings trigger.
 pub fn needed(findings: &[Finding]) -> Effects {
     let needed = findings.iter().filter(|finding| finding.needed);
     needed.fold(Effects::default(), |set, finding| set.with(finding.effect))

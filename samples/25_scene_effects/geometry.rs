@@ -11,7 +11,7 @@ use glam::{Affine3A, Vec3};
 use crate::recipe::{GeometryKind, Recipe};
 use crate::world::Shapes;
 
-/// Everything rays can meet, except the plane.
+/// Everything rays can hit, except the plane.
 pub struct SceneGeometry {
     /// Meshes, materials, textures.
     pub scene: SceneOnGpu,
@@ -20,7 +20,7 @@ pub struct SceneGeometry {
     /// Bound on the distance from a ray's origin to a shape, which its box allows for.
     reach: f32,
     instances: Vec<Placed>,
-    /// A top level for each set of hit records that a pipeline asked for, by its cull mask.
+    /// A top level for each set of hit records needed by a pipeline, by its cull mask.
     tops: Vec<(u32, AccelerationStructure)>,
     _levels: Vec<AccelerationStructure>,
     _buffers: Vec<Buffer>,

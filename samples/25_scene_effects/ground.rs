@@ -11,11 +11,11 @@ common::shader_struct! {
     pub struct Ground {
         /// Its height.
         pub shape: HeightfieldShape,
-        /// Corners of the box that it lies in.
+        /// Corners of its bounding box.
         pub low: Vec3,
         /// The other corner.
         pub high: Vec3,
-        /// By how much a height above the ground may be wrong that is computed in the box.
+        /// The error bound of a height above the ground that is computed inside the box.
         pub error: f32,
         /// Colour of the light fields, linear RGB.
         pub light: Vec3,

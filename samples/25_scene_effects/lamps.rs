@@ -13,9 +13,9 @@ use crate::{Composition, is_glass};
 pub struct Lamps {
     /// Spheres first, then the triangles of meshes, and the table that chooses one.
     pub emitters: Emitters,
-    /// Of each instance, which emitter its triangle 0 is; [`NO_EMITTER`] if it is none.
+    /// The emitter of triangle 0 of each instance; [`NO_EMITTER`] if there is none.
     pub of_instances: Vec<u32>,
-    /// Of each sphere, which emitter it is, or [`NO_EMITTER`].
+    /// The emitter of each sphere, or [`NO_EMITTER`].
     pub of_spheres: Vec<u32>,
 }
 

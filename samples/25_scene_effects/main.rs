@@ -1,4 +1,4 @@
-//! 25 · Scene effects: a pipeline that holds what the scene calls for, and nothing else.
+//! 25 · Scene effects: a pipeline with exactly the effects that the scene triggers.
 //!
 //! New since 12_infinite_plane: effects found from the scene, shaders in pieces, stages and groups that
 //! come and go, and one more pipeline that has everything, to be compared with.
@@ -221,7 +221,7 @@ impl Demo {
     }
     // ANCHOR_END: recipe
 
-    /// Brings the scene to the device, if it is not there, and tells where its shapes are.
+    /// Uploads the scene, unless it is on the device already, and returns the addresses of its shapes.
     fn upload(&mut self, gpu: &Gpu, eye: Vec3) -> Result<()> {
         if let Some(geometry) = &self.geometry
             && geometry.reaches(&self.scene, eye)

@@ -1,4 +1,4 @@
-//! From effects to a pipeline: which stages, which groups, and what they are told at compile time.
+//! From effects to a pipeline: its stages, its groups, and their compile-time settings.
 
 use anyhow::Result;
 use ash::vk;
@@ -26,7 +26,7 @@ pub enum GeometryKind {
 }
 
 impl GeometryKind {
-    /// All kinds, in the order of hit records and mask bits, each with the effect that calls for it.
+    /// All kinds, in the order of hit records and mask bits, each with the effect that triggers it.
     pub const ALL: [(Self, Effect); 6] = [
         (Self::Mesh, Triangles),
         (Self::Sphere, Spheres),

@@ -12,7 +12,7 @@ common::shader_struct! {
         pub radius: f32,
         /// The material, by position in the model.
         pub material: u32,
-        /// By how much it moves while the shutter is open.
+        /// Its motion while the shutter is open.
         pub moves: Vec3,
     }
 }

@@ -29,7 +29,7 @@ pub struct Why {
 const ROUNDS: u32 = 9;
 /// Size of the picture. On a GPU it is enlarged until its time can be measured.
 const SIZE: [u32; 2] = [320, 200];
-/// The family of GPUs whose compiler is asked, and its name.
+/// The family of GPUs whose compiler is run, and its name.
 const FAMILY: (Family, &str) = (Family::Navi31, "RDNA 3");
 /// Controls that the command sets itself.
 const OWN: [(&str, &str); 4] = [
@@ -40,7 +40,7 @@ const OWN: [(&str, &str); 4] = [
 ];
 
 impl Why {
-    /// Does what the arguments ask: prints the reasons, or whatever every sample does.
+    /// Runs what the arguments request: prints the reasons, or does the same as every sample.
     ///
     /// # Errors
     /// Whatever went wrong.
@@ -77,7 +77,7 @@ fn check(args: &Args, options: &Options) -> Result<(), UsageError> {
     Err(UsageError(line))
 }
 
-/// An effect as the chapter's report tells of it.
+/// An effect in the chapter's report.
 #[derive(Clone, Debug, Deserialize)]
 struct Reason {
     name: String,
@@ -92,7 +92,7 @@ struct Row {
     reason: Reason,
     /// Milliseconds that leaving it out saves; `None` where noise hides them.
     milliseconds: Option<f64>,
-    /// Instructions that it saves; `None` if there is no such compiler.
+    /// The instructions that it saves; `None` if there is no such compiler.
     instructions: Option<i64>,
 }
 

@@ -17,21 +17,21 @@ use crate::shape::HeightfieldShape;
 /// Addresses of the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shapes {
-    /// Of [`effects::Sphere`].
+    /// The address of an array of [`effects::Sphere`].
     pub spheres: vk::DeviceAddress,
-    /// Of [`effects::Box`].
+    /// The address of an array of [`effects::Box`].
     pub boxes: vk::DeviceAddress,
-    /// Of [`effects::Solid`].
+    /// The address of an array of [`effects::Solid`].
     pub solids: vk::DeviceAddress,
-    /// Of [`effects::Node`].
+    /// The address of an array of [`effects::Node`].
     pub nodes: vk::DeviceAddress,
-    /// Of [`effects::Segment`].
+    /// The address of an array of [`effects::Segment`].
     pub segments: vk::DeviceAddress,
-    /// Of [`effects::Face`].
+    /// The address of an array of [`effects::Face`].
     pub faces: vk::DeviceAddress,
-    /// Of [`effects::Finish`].
+    /// The address of an array of [`effects::Finish`].
     pub finishes: vk::DeviceAddress,
-    /// Of [`effects::Glass`].
+    /// The address of an array of [`effects::Glass`].
     pub glasses: vk::DeviceAddress,
     /// Number of those.
     pub glass_count: u32,
@@ -54,7 +54,7 @@ common::shader_struct! {
         pub u: Vec3,
         /// Along the other.
         pub v: Vec3,
-        /// On which square the plane's anchor lies.
+        /// The square that contains the plane's anchor.
         pub anchor: Vec2,
     }
 }

@@ -27,7 +27,7 @@ common::shader_struct! {
     }
 }
 
-/// The medium where there is no body.
+/// The medium outside of all bodies.
 pub const AIR: u32 = u32::MAX;
 
 impl From<&Material> for Glass {

@@ -12,7 +12,7 @@ common::shader_enum! {
     pub enum SceneName {
         /// A game in glass and gold.
         Chess,
-        /// A drink, modelled into the wall of its glass; a pawn lies in it.
+        /// A drink, modelled into the wall of its glass, with a pawn in it.
         Drink,
         /// The same, a hair away from the wall.
         DrinkApart,
@@ -29,7 +29,7 @@ common::shader_enum! {
         /// A sheet without an inside.
         Pane,
     }
-    /// The light of a ray that meets nothing.
+    /// The light of a ray that hits nothing.
     pub enum Sky: SKY { Evening, Day, White }
 }
 

@@ -13,7 +13,7 @@ struct Garland {
     /// Drop of the middle below the ends.
     sag: f32,
     lamps: u32,
-    /// Of a lamp.
+    /// The radius of a lamp.
     radius: f32,
 }
 

@@ -6,7 +6,7 @@ use common::scene::Camera;
 /// A thin lens with an aperture before it, at the camera's eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinLens {
-    /// Of the aperture, in the world's units; 0 is a pinhole.
+    /// The diameter of the aperture, in the world's units; 0 is a pinhole.
     pub diameter: f32,
     /// From the eye to the plane in focus, along the view; may be infinite.
     pub focus: f32,

@@ -27,7 +27,7 @@ common::shader_struct! {
         pub radius: f32,
         /// From a triangle's first corner to its second.
         pub across: Vec3,
-        /// That it is chosen by its power.
+        /// The probability with which it is chosen, by its power.
         pub probability: f32,
         /// From a triangle's first corner to its third.
         pub along: Vec3,
@@ -75,7 +75,7 @@ impl Emitters {
     /// The emitters of a scene and its spheres.
     ///
     /// # Errors
-    /// If one's power is no number, or there are too many.
+    /// If the power of one is not a number, or there are too many.
     pub fn new(scene: &Scene, spheres: &[Sphere]) -> Result<Self> {
         let materials = &scene.model.materials;
         let mut list: Vec<Emitter> = spheres.iter().map(sphere).collect();

@@ -28,7 +28,7 @@ impl LitScene {
     /// Uploads and builds it, for rays that begin at `eye` or anywhere in the scene.
     ///
     /// # Errors
-    /// If memory is short, or an emitter's power is no number.
+    /// If memory is short, or an emitter's power is not a number.
     pub fn new(gpu: &Gpu, staged: &Staged, options: SceneOptions, eye: Vec3) -> Result<Self> {
         let on_gpu = SceneOnGpu::new(gpu, &staged.scene, options)?;
         Self::around(gpu, on_gpu, staged, eye)

@@ -1,4 +1,4 @@
-//! 29 · Emitters: spheres and meshes that shine are met by chance, asked by shadow rays, or both.
+//! 29 · Emitters: luminous spheres and meshes are hit at random, sampled by shadow rays, or both.
 //!
 //! New since 11_path_tracing: directions to what shines, chosen within the solid angle that it fills; a table
 //! that chooses one of many; and the balance of two ways to find the same light.

@@ -28,7 +28,7 @@ common::shader_enum! {
         /// A square that shines at a right angle to one that does not.
         PerpendicularSquares,
     }
-    /// The light of a ray that meets nothing.
+    /// The light of a ray that hits nothing.
     pub enum Sky: SKY { Night, Day, Black }
 }
 
@@ -188,7 +188,7 @@ fn above_square(balls: &[(Vec3, f32, f32)]) -> (Scene, Vec<Sphere>) {
 pub fn many() -> Vec<(Vec3, f32, f32)> {
     let ball = |i: u8| {
         let at = |k: u8| (f32::from(k) - 3.5) * 0.14;
-        // 37 has no factor in common with 64: strong ones stand everywhere.
+        // 37 has no factor in common with 64, so strong ones are everywhere.
         let radiance = 4000.0 * (-f32::from(i.wrapping_mul(37) % 64) / 4.0).exp2();
         (Vec3::new(at(i % 8), at(i / 8), 1.0), 0.01, radiance)
     };

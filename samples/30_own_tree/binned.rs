@@ -22,9 +22,9 @@ const GRAIN: usize = 4096;
 
 /// A tree over boxes, by as many threads as there are processors; the same bytes however many.
 ///
-/// A primitive whose box is not finite, or is inside out, lies in no leaf: `order` has only the others.
+/// A primitive whose box is not finite, or is inside out, is in no leaf: `order` has only the others.
 /// No walk passes more than [`DEPTH`] nodes, and leaves hold at most four primitives.
-/// Time is O(n log n) for boxes as they are met, and at most O([`DEPTH`] · n) for any.
+/// The time is O(n log n) for usual boxes, and at most O([`DEPTH`] · n) for any.
 ///
 /// # Panics
 /// Beyond 2^32 boxes.
@@ -114,7 +114,7 @@ impl Growth {
             self.idle.fetch_sub(1, Ordering::Relaxed);
             (a, b.ok())
         });
-        // Where the system starts no more threads, this one does it.
+        // If the system starts no more threads, this one does the work.
         let mut b = b.unwrap_or_else(|| self.grow(right.0, right.1, level, &mut beyond));
         let before = nodes.len() as u32;
         for child in beyond.iter_mut().flat_map(|node| &mut node.children) {
@@ -193,7 +193,7 @@ impl Grid {
         let longest = axes.into_iter().max_by(|&a, &b| sides[a].total_cmp(&sides[b])).unwrap_or(0);
         // A few primitives need no more bins than they are.
         let bins = BINS.min(part.len());
-        // Where they are all in one place, or as good as that, there is one bin.
+        // If they are all in one place, or nearly so, there is one bin.
         let density = sides.map(|side| bins as f32 / side);
         let density = density.map(|density| if density.is_finite() { density } else { 0.0 });
         Self { low: axes.map(|axis| middles.low(axis)), density, longest, bins }
@@ -228,7 +228,7 @@ impl<'a> Bins<'a> {
         Self { bins, grid }
     }
 
-    /// Axis and first bin behind the plane of least cost. None where all lie in one bin.
+    /// The axis and the first bin behind the plane of least cost. None if all are in one bin.
     ///
     /// A ray that meets the part meets one side of a plane as often as the areas say, and then its primitives.
     fn best(&self) -> Option<(usize, usize)> {

@@ -16,7 +16,7 @@ common::shader_enum! {
     pub enum Builder {
         /// From the root down, by the surface area heuristic.
         Binned,
-        /// The same, and then what lies badly is put where it lies better.
+        /// The same, and then badly placed parts are moved to better places.
         Reinserted,
         /// On the device, along a curve through space.
         Device,

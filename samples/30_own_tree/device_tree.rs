@@ -55,15 +55,15 @@ common::shader_struct! {
 
 /// A tree on the device: for each triangle 64 bytes of nodes, 36 of corners, 4 to name it, and 4 for a refit.
 pub struct DeviceTree {
-    /// Of [`Node`], the root first: one less than there are triangles, and at least one. A leaf is one triangle.
+    /// The [`Node`]s, the root first: one less than triangles, and at least one. A leaf is one triangle.
     pub nodes: Buffer,
-    /// Of `u32`: which triangle lies at each position that leaves name.
+    /// The index, a `u32`, of the triangle at each position that leaves refer to.
     pub original: Buffer,
-    /// Of [`Corners`]: those of the triangle at each position.
+    /// The [`Corners`] of the triangle at each position.
     pub corners: Buffer,
     /// Number of triangles.
     pub count: u32,
-    /// Of `u32`: where each node's range of positions ends, of which one end is the node's own index.
+    /// The end, a `u32`, of each node's range of positions; the other end is the node's own index.
     pub(crate) ends: Buffer,
 }
 

@@ -1,4 +1,4 @@
-//! Trees of boxes over primitives: what a shader walks to find the few that a ray can meet.
+//! Trees of boxes over primitives, which a shader walks to find the few that a ray can hit.
 
 mod binned;
 mod builder;

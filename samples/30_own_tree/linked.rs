@@ -139,7 +139,7 @@ impl Linked {
         }
     }
 
-    /// Measures a part of two anew. Whether it has changed, and by how much its area has shrunk.
+    /// Measures a part of two again. Returns whether it has changed, and by how much its area has shrunk.
     fn renew(&mut self, at: u32) -> (bool, f64) {
         let [a, b] = self[at].children;
         let (hull, height) =

@@ -39,22 +39,22 @@ common::shader_struct! {
         pub corners: Address<Corners>,
         /// The instances.
         pub placed: Address<Placed>,
-        /// By how much the boxes of the top tree grow, for a coordinate of 1.
+        /// The growth of the top tree's boxes, for a coordinate of 1.
         pub growth: f32,
         /// The largest coordinate of the world, without its sign.
         pub reach: f32,
     }
 }
 
-/// The shader that answers any rays, from a buffer to a buffer: what tests ask.
+/// The shader that traces arbitrary rays, from a buffer to a buffer, for tests.
 pub const RAYS: &str = "rays.comp";
 
-/// The shaders that have the device itself answer them, where it has no queries: what begins, misses, hits.
+/// The shaders by which the device itself traces them if it has no queries: raygen, miss, closest hit.
 pub const TRACED: [&str; 3] = ["rays.rgen", "rays.rmiss", "rays.rchit"];
 
 /// The trees of a scene on the device.
 pub struct TreesOnGpu {
-    /// Of the [`Trees`].
+    /// The address of the [`Trees`].
     pub address: Address<Trees>,
     /// The order of each mesh's triangles, in the model's order of meshes.
     pub orders: Vec<Vec<u32>>,

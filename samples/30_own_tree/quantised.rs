@@ -11,7 +11,7 @@ use crate::hull::Hull;
 use crate::tree::{Bounds, Child, Node};
 
 common::shader_struct! {
-    /// A node whose boxes stand on a grid: a coordinate is `origin + q * step`, q a whole number up to 255.
+    /// A node whose boxes are on a grid: a coordinate is `origin + q * step`, q a whole number up to 255.
     /// 36 bytes.
     pub struct Quantised {
         /// The grid's corner.

@@ -1,4 +1,4 @@
-//! Boxes anew, where primitives have moved and the tree keeps its shape.
+//! Recomputes boxes after primitives have moved, while the tree keeps its shape.
 
 use crate::hull::Hull;
 use crate::tree::{Bounds, Child, Node, Tree};

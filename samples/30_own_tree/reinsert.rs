@@ -41,14 +41,14 @@ pub(crate) fn reinserted_into(tree: Tree, bounds: &[Bounds], rounds: u32, most: 
 
 /// A place for a part: beside another.
 struct Move {
-    /// By how much all areas together shrink.
+    /// The reduction of the sum of all areas.
     gain: f64,
     part: u32,
     beside: u32,
 }
 
 impl Linked {
-    /// Looks for a better place for each part, and moves those that have one. Whether any has.
+    /// Looks for a better place for each part, and moves it there. Returns whether any has moved.
     fn round(&mut self) -> bool {
         let parts = self.len();
         let starts: Vec<u32> = (0..parts).step_by(SEARCHED as usize).collect();
@@ -65,7 +65,7 @@ impl Linked {
         moved
     }
 
-    /// The best place for a part, if one is better than where it is.
+    /// The best place for a part, if it is better than the present one.
     ///
     /// Where it is taken from, its parent goes with it, and the boxes above shrink. On the way to a place all
     /// boxes grow, and there is a new parent. Wider and wider surroundings are searched, and no box is opened
@@ -109,7 +109,7 @@ impl Linked {
     /// Moves a part beside another, if that makes all areas together smaller and no way too long.
     fn move_if_better(&mut self, part: u32, beside: u32) -> bool {
         let above = self[part].parent;
-        // An earlier move may have changed what lies where.
+        // An earlier move may have changed the surroundings.
         if above == NOBODY || beside == above || self.upward(beside).any(|at| at == part) {
             return false;
         }

@@ -1,4 +1,4 @@
-//! A tree of boxes: nodes with two children, and the order of primitives that its leaves count on.
+//! A tree of boxes: nodes with two children, and the order of primitives that its leaves refer to.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::hull::Hull;
 pub type Bounds = (Vec3, Vec3);
 
 common::shader_struct! {
-    /// A box, and what lies in it: a node, or some primitives. 32 bytes.
+    /// A box, and its contents: a node, or some primitives. 32 bytes.
     pub struct Child {
         /// The low corner.
         pub low: Vec3,
@@ -42,7 +42,7 @@ impl Child {
         (self.count == 0 && self.first != Self::NONE.first).then_some(self.first)
     }
 
-    /// Tests whether nothing is there.
+    /// Returns whether there is nothing in it.
     pub fn is_none(&self) -> bool {
         self.count == 0 && self.first == Self::NONE.first
     }
@@ -54,7 +54,7 @@ impl Child {
     }
 }
 
-/// A tree: its nodes, the root first, and which primitive lies at each position that leaves name.
+/// A tree: its nodes, the root first, and the primitive at each position that leaves refer to.
 #[derive(Clone, Debug)]
 pub struct Tree {
     /// At least one: of a tree over nothing both children are [`Child::NONE`].
@@ -65,12 +65,12 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// The box around all that lies in the tree; inside out if that is nothing.
+    /// The bounding box of the tree; inside out if it is empty.
     pub fn bounds(&self) -> Bounds {
         Hull::around(self.nodes[0].children.map(|child| (child.low, child.high))).into()
     }
 
-    /// The nodes with all numbers moved on: as they stand in an array of many trees.
+    /// The nodes with all indices shifted, for an array of many trees.
     pub fn placed(&self, first_node: u32, first_primitive: u32) -> impl Iterator<Item = Node> {
         self.nodes.iter().map(move |node| Node {
             children: node.children.map(|child| match child {

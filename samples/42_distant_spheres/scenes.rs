@@ -24,7 +24,7 @@ pub fn default_count(scene: SceneKind) -> u32 {
     }
 }
 
-/// Tests whether a scene has as many shapes as one asks for.
+/// Returns whether the number of a scene's shapes can be chosen.
 pub fn has_count(scene: SceneKind) -> bool {
     matches!(scene, SceneKind::Grid | SceneKind::RandomBall | SceneKind::Dust)
 }
@@ -74,7 +74,7 @@ pub fn shapes(scene: SceneKind, count: u32, model: &Model, pieces: &[Instance]) 
     shapes
 }
 
-/// A ball with a radius of a million, seen from 1 above it, and things that stand there.
+/// A ball with a radius of a million, seen from 1 above it, and objects on it.
 fn planet(shapes: &mut Shapes, first: u32) {
     const RADIUS: f32 = 1e6;
     shapes.ball(Vec3::NEG_Y * RADIUS, RADIUS, first + 5);

@@ -1,4 +1,4 @@
-//! Bottom levels of several geometries, for meshes that stand in the same place.
+//! Bottom levels of several geometries, for meshes in the same place.
 
 use std::collections::HashMap;
 use std::ops::Range;

@@ -61,7 +61,7 @@ struct Demo {
     most: usize,
 }
 
-/// What the levels are built from.
+/// The settings that the levels are built from.
 #[derive(Clone, Copy, PartialEq)]
 struct Wanted {
     levels: Levels,

@@ -26,7 +26,7 @@ static BEFORE_MAIN: extern "C" fn() = choose;
 
 extern "C" fn choose() {
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    // An explicit choice of drivers stands, including that of a test that starts itself again.
+    // An explicit choice of drivers is respected, including that of a test that starts itself again.
     if asked().is_some() || is_set(VARIABLE) || is_set("VK_DRIVER_FILES") {
         return;
     }

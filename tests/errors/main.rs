@@ -22,7 +22,7 @@ mod testmodels;
 
 use std::path::Path;
 
-/// The chapter that stands for all: the tests are about the framework.
+/// The chapter that represents all: the tests are about the framework.
 const SAMPLE: &str = "02_basic";
 
 /// Runs [`SAMPLE`] small and headless, and checks the exit code and the words of its message.

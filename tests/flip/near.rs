@@ -5,14 +5,14 @@ use common::app::Picture;
 /// Bounds on the difference of a picture from exact arithmetic: the number of decisions per pixel, each of
 /// which may *flip*, and the mean FLIP.
 ///
-/// A ray's direction is off by some 4 ULP of 1, which is 7e-5 of a pixel of a picture that is 96 wide. An edge
-/// that passes as near by a pixel's centre, on either side, flips it: of 5,760 pixels less than one does, if all
-/// of them have an edge, and so does a second decision, if its point is off by as little. In larger pictures
-/// there are more pixels, and each is smaller.
+/// A ray's direction is off by about 4 ULP of 1, which is 7e-5 of a pixel in a picture 96 pixels wide. An
+/// edge that passes this close to a pixel's centre, on either side, flips it: less than one of 5,760
+/// pixels, even if all of them have an edge. The same holds for a second decision, if its point is as
+/// accurate. Larger pictures have more pixels, and smaller ones.
 ///
-/// A colour is off where a texture is read elsewhere: weights off by 16 ULP of 1 are a thousandth of a texel
-/// of 512, and a quarter of a step of 255 where black lies beside white. So at most a quarter of the pixels
-/// change by a step, which has a FLIP of 0.005.
+/// A colour is off if a texture is sampled at another place: an error of 16 ULP of 1 in the weights is a
+/// thousandth of a texel of 512, and a quarter of a step of 1/255 between black and white. So at most a
+/// quarter of the pixels change by a step, which has a FLIP of 0.005.
 #[derive(Clone, Copy, Debug)]
 pub struct Near {
     decisions: u32,

@@ -1,4 +1,4 @@
-//! The hard cases with their answers to 50 digits, held against the exact and the f64 functions.
+//! The hard cases with their answers to 50 digits, compared with the exact and the f64 functions.
 
 use glam::{DMat3, DVec3};
 use serde_json::Value;
@@ -125,7 +125,7 @@ fn check(case: &Value, found: &Found) {
             assert!(found.exact.is_none() && found.plain.is_none(), "{id}: a hit");
             return;
         }
-        // Whether denormals are flushed: the reference never does, and outside is outside.
+        // Denormals may be flushed: the reference never does, and outside is outside.
         "either" => {
             assert!(found.exact.is_none(), "{id}: outside by a denormal, yet a hit");
             return;

@@ -6,7 +6,7 @@ use super::bound::Graze;
 use super::crossing::Crossing;
 use super::ray::Ray;
 
-/// A ray and a triangle of the scene, where they meet or nearly meet.
+/// A ray and a triangle of the scene, at their intersection or close approach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Index of the instance in the scene's list: `gl_InstanceID`.

@@ -2,7 +2,7 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | [`Ray`], [`Surface`] | what is asked, and what is answered |
+//! | [`Ray`], [`Surface`] | the query, and its answer |
 //! | [`rational`], [`vector`] | rational numbers and vectors, exactly those that the f32 or f64 bits denote |
 //! | [`surd`] | `p + q·√r`: the root of a quadratic, a unit normal, compared and rounded exactly |
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
@@ -11,11 +11,11 @@
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
 //! | [`solid`] | half-spaces and balls combined: union, intersection, difference, inverse |
-//! | [`crossing`] | where a ray's line meets a triangle's plane, and how near to the border |
+//! | [`crossing`] | where a ray's line crosses a triangle's plane, and how near to the border |
 //! | [`transform`] | an instance's 3×4 matrix, and how far an f32 ray strays on its way through it |
 //! | [`bound`] | how far a triangle test in f32 may be off: the derivation and the numbers |
 //! | [`bvh`], [`scene`], [`hit`] | many triangles: closest hit, all hits, near misses |
-//! | [`verdict`] | is the GPU's answer right, excused by a bound, or wrong |
+//! | [`verdict`] | the GPU's answer is right, excused by a bound, or wrong |
 //! | [`ulp`] | error in units in the last place of an f32 |
 //!
 //! # Conventions

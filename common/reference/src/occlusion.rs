@@ -15,7 +15,7 @@ pub fn polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let edges = ends.map(|(&a, &b)| {
         let (a, b) = (a - point, b - point);
         let across = a.cross(b);
-        // An edge that the point lies in line with is seen under no angle, or hides nothing.
+        // An edge in line with the point subtends no angle, or hides nothing.
         let turned = across.try_normalize().map_or(0.0, |axis| axis.dot(normal));
         turned * across.length().atan2(a.dot(b))
     });

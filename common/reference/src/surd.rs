@@ -1,4 +1,4 @@
-//! `p + q·√r` with rational p, q, r: all that spheres, planes and unit normals ask of square roots.
+//! `p + q·√r` with rational p, q, r: all that spheres, planes and unit normals need of square roots.
 
 use std::cmp::Ordering;
 

@@ -160,7 +160,7 @@ mod tests {
             // Along the normal, and by no other way of that length, does one leave the surface fastest.
             let away = distance(&swept, point + 1e-3 * hit.normal);
             assert!((away - 1e-3).abs() < 1e-8, "{swept:?} {ray:?}: {away}");
-            // Nothing lies nearer.
+            // Nothing is nearer.
             let outside = distance(&swept, ray.origin) > 0.0;
             let between = ray.at(0.5 * hit.t);
             assert_eq!(distance(&swept, between) > 0.0, outside, "{swept:?} {ray:?}");

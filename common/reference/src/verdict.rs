@@ -30,7 +30,7 @@ pub struct Answer {
 pub enum Verdict {
     /// The exact closest hit with t within its bound, or rightly a miss.
     Agrees,
-    /// Another triangle that the ray truly hits, as near as the bounds on t can tell.
+    /// Another triangle that the ray also hits, at the same distance within the bounds on t.
     Tie {
         /// Its distance beyond the exact closest hit, in t.
         distance: f64,
@@ -67,7 +67,7 @@ impl Verdict {
     }
 }
 
-/// Why an answer cannot be right.
+/// The reason why an answer cannot be right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// The scene has no such instance or primitive.
@@ -81,7 +81,7 @@ pub enum Fault {
         /// The bound on it.
         bound: f64,
     },
-    /// The right triangle at a wrong t; also if that t lies outside the ray's interval.
+    /// The right triangle with a wrong t; also if that t is outside the ray's interval.
     Distance {
         /// t of the answered triangle.
         t: f64,

@@ -18,7 +18,7 @@ pub struct Chart {
 /// One dot.
 #[derive(Clone, Debug)]
 pub struct Dot {
-    /// The configuration the dot stands for.
+    /// The configuration represented by the dot.
     pub label: &'static str,
     /// Its position; both coordinates above 0.
     pub at: [f64; 2],

@@ -33,7 +33,7 @@ pub fn run_at<S: Sample>(name: &'static str, home: &str) -> ExitCode {
 }
 
 /// Runs a [`Sample`](crate::Sample) as the program of a crate outside the book: `raybook::run!(Demo)` is all of
-/// `main`. Its shaders lie beside its manifest in `shaders/`, in a folder with the program's name.
+/// `main`. Its shaders are in `shaders/` next to its manifest, in a folder with the program's name.
 #[macro_export]
 macro_rules! run {
     ($sample:ty) => {

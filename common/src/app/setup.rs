@@ -20,7 +20,7 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// The setup that arguments ask for.
+    /// The setup requested by arguments.
     pub fn new(args: &Args) -> Self {
         let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
         Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }

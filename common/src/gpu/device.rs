@@ -39,7 +39,7 @@ pub struct Candidate {
     pub queue_family: u32,
     /// True if that family has graphics.
     pub graphics: bool,
-    /// The features to enable: the required ones, and the optional ones the device offers.
+    /// The features to enable: the required ones, and the optional ones the device supports.
     pub features: Features,
     /// The extensions to enable.
     pub extensions: Vec<&'static CStr>,

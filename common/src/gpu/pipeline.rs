@@ -174,7 +174,7 @@ impl Pipeline {
         Ok(())
     }
 
-    /// Checks that a buffer lies at each address in the push constants; 0 stands for none.
+    /// Checks that there is a buffer at each address in the push constants; 0 means none.
     fn check_addresses<T: ShaderStruct>(&self, push: &T) -> Result<()> {
         let mut offsets = Vec::new();
         T::addresses(0, &mut offsets);

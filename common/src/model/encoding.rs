@@ -34,7 +34,7 @@ pub(super) fn letters(bytes: &[u8]) -> Cow<'_, str> {
     text.into()
 }
 
-/// True for a character that stands for a byte.
+/// True for a character that represents a byte.
 pub(super) fn is_foreign(c: char) -> bool {
     u32::from(c) >= FOREIGN
 }

@@ -31,7 +31,7 @@ pub struct Folder {
     listings: Cell<u32>,
 }
 
-/// The reason why a file is unavailable: it is missing, is no text, cannot be read, or is outside the model's folder.
+/// The reason why a file is unavailable: missing, not text, not readable, or outside the model's folder.
 /// A model may do without a file that it names.
 #[derive(Debug)]
 pub struct Unavailable(pub(super) String);
@@ -53,7 +53,7 @@ pub struct Named {
     pub name: String,
     /// Its path, as the model's own path was given.
     pub beside: PathBuf,
-    /// That path in error messages.
+    /// The path as shown in error messages.
     pub shown: String,
     /// The message if it is not the file that was named, but one of that name beside the model.
     pub instead: Option<String>,
@@ -180,7 +180,7 @@ fn written(name: &str) -> PathBuf {
     path(&bare.replace('\\', "/"))
 }
 
-/// Where a path leads from a folder, without following links. A drive's letter leads outside on any system.
+/// The target of a path from a folder, without following links. A drive's letter leads outside on any system.
 fn led(start: &Path, path: &Path) -> PathBuf {
     let is_drive = |part: &OsStr| part.as_encoded_bytes().get(1) == Some(&b':');
     let mut led = start.to_owned();

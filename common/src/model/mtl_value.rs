@@ -134,7 +134,7 @@ impl Value<'_> {
     }
 }
 
-/// A colour as it stands in a file, rounded.
+/// A colour as written in a file, rounded.
 fn shown(color: Vec3) -> String {
     let shown = |part: f32| match part.abs() {
         0.0..=1e6 => ((part * 1e3).round() / 1e3).to_string(),

@@ -142,7 +142,7 @@ pub(crate) struct Geometry {
     pub positions: Positions,
     /// As the file has them: v upwards.
     pub coordinates: Vec<Vec2>,
-    /// Of any length; zero if the file's is not a direction.
+    /// A vector of any length; zero if the file's is not a direction.
     pub normals: Vec<Vec3>,
     pub parts: Vec<Part>,
 }

@@ -21,7 +21,7 @@ pub(crate) enum Kind {
     Elsewhere,
     /// A texture of which the end is missing.
     Cut,
-    /// A texture that its file wants turned.
+    /// A texture that its file requires to be turned.
     Turned,
     /// An option or a form of a statement that is not supported.
     Option,

@@ -30,7 +30,7 @@ impl Scene {
     pub fn chess() -> Result<Self> {
         let model = obj::load_own(&assets().join("chess.obj"))?;
         let mut instances = Vec::new();
-        // The screen stands on the rim behind Black.
+        // The screen is on the rim behind Black.
         let rim = Vec3::new(0.0, 0.02, -4.28);
         for (name, at) in [
             ("board_light", Vec3::ZERO),
@@ -76,7 +76,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Removes the board and the screen, which stands on its frame. A chapter puts a plane in their place.
+    /// Removes the board and the screen on its frame. A chapter replaces them by a plane.
     pub fn remove_board(&mut self) {
         let meshes = &self.model.meshes;
         self.instances.retain(|instance| {

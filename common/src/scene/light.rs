@@ -53,7 +53,7 @@ pub struct PointLight {
 /// A light of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightSource {
-    /// So far away that its rays are parallel.
+    /// At an infinite distance, so that its rays are parallel.
     Directional {
         /// Unit vector towards the light.
         direction: Vec3,
@@ -67,7 +67,7 @@ pub enum LightSource {
 common::shader_enum! {
     /// The kind of light (`shaders/common/light.glsl`).
     pub enum LightKind: LIGHT {
-        /// So far away that its rays are parallel.
+        /// At an infinite distance, so that its rays are parallel.
         Directional,
         /// At a point.
         Point,

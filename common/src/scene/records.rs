@@ -46,9 +46,9 @@ common::shader_struct! {
 common::shader_struct! {
     /// Addresses of a scene's arrays, for push constants.
     pub struct SceneAddresses {
-        /// Of the [`InstanceRecord`] array, indexed by `gl_InstanceCustomIndexEXT`.
+        /// The address of the [`InstanceRecord`] array, indexed by `gl_InstanceCustomIndexEXT`.
         pub instances: Address<InstanceRecord>,
-        /// Of the [`MaterialRecord`] array.
+        /// The address of the [`MaterialRecord`] array.
         pub materials: Address<MaterialRecord>,
     }
 }

@@ -149,7 +149,7 @@ impl Attempt<'_> {
         self.verdict_of(edition, Held::Reader)
     }
 
-    /// Checks whether an edition solves the exercise as far as runs of the program tell.
+    /// Checks whether an edition solves the exercise, judging only by runs of the program.
     ///
     /// # Errors
     /// As [`Attempt::verdict`].

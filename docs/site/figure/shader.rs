@@ -1,8 +1,8 @@
 //! Translates shaders of the chapters to GLSL ES 3.00, for WebGL 2.
 //!
-//! A figure's shader includes files of `shaders/`, whole or cut at an anchor:
-//! `#include "common/sphere.glsl#sphere_stable"`. What that language says otherwise stands in [`HEAD`], [`LACKS`]
-//! and [`Translator`]. What fits none of them is a fault with its file and line.
+//! A figure's shader includes files of `shaders/`, whole or only the part at an anchor:
+//! `#include "common/sphere.glsl#sphere_stable"`. [`HEAD`], [`LACKS`] and [`Translator`] contain the
+//! differences between the languages. Everything else is a fault with its file and line.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -56,7 +56,7 @@ impl Mesh {
         Ok(self.triangles.iter().map(|triangle| triangle.map(corner)).collect())
     }
 
-    /// The place of a seam in the mesh's space, and the triangles that meet there.
+    /// The position of a seam in the mesh's space, and its triangles.
     pub fn seam(&self, random: &mut Random, seam: Seam) -> (DVec3, Vec<usize>) {
         match seam {
             Seam::Corners => {

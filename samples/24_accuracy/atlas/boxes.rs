@@ -1,4 +1,4 @@
-//! By how much a box grows, for which an intersection shader is called; and whether rays that meet it are lost.
+//! The growth of a box for which an intersection shader is called, and the rays lost although they hit it.
 
 use anyhow::Result;
 use common::gpu::Gpu;
@@ -13,7 +13,7 @@ use super::truth::{Truth, ulp};
 use super::world::World;
 use crate::query::Ray;
 
-/// Boxes of a world: as many as can lie along a ray and be noted.
+/// The number of boxes in a world: as many as can be on one ray and be recorded.
 const BOXES: usize = 8;
 
 /// From the ray's origin to the box, and from the box to the world's origin.
@@ -62,12 +62,12 @@ pub fn row(gpu: &Gpu, tracer: &Tracer, rays: usize, exact: usize) -> Result<Row>
     Ok(row.decided(&truth))
 }
 
-/// By how much the box would have to grow for a ray to meet it; below 0 for one that does.
+/// The growth needed for a ray to hit the box; below 0 for one that hits it already.
 #[derive(Default)]
 struct Growth {
-    /// The most of rays that the box was offered to.
+    /// The largest for rays with a call of the intersection shader.
     offered: Option<f64>,
-    /// The least of rays that it was not offered to.
+    /// The least for rays without one.
     refused: Option<f64>,
 }
 
@@ -150,7 +150,7 @@ fn ray(random: &mut Random, walls: &[Vec3; 2], distance: f64) -> Ray {
     let mut side = || if random.below(2) == 0 { -1.0 } else { 1.0 };
     let (to_b, to_c, to_side) = (side(), side(), side());
     let wall = |axis: usize, side: f64| if side > 0.0 { high[axis] } else { low[axis] };
-    // As little as the nearer of the two can tell, and as much as the farther.
+    // Between the resolution of the nearer of the two and that of the farther.
     let coordinate = low.abs().max(high.abs()).max_element();
     let (fine, coarse) = (ulp(coordinate.min(distance)), ulp(coordinate.max(distance)));
     let beside = to_side * random.scale(0.0625 * fine, 64.0 * coarse);

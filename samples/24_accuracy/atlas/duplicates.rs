@@ -15,7 +15,7 @@ use super::world::{Build, Corners, Traversal, World};
 use crate::batch::IDENTITY;
 use crate::query::Ray;
 
-/// Triangles that stand there twice: the one that many small ones surround is large.
+/// Triangles that occur twice: the one surrounded by many small ones is large.
 const PAIRS: usize = 64;
 
 /// Measures `rays` rays with the flag that forbids a second call, and without it.

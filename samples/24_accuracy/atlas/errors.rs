@@ -1,6 +1,6 @@
 //! Errors by the thousand: how many there are of each size, and the largest.
 
-/// The exponent of the least bucket's upper end: errors below 2^-4 are not told apart.
+/// The exponent of the least bucket's upper end: errors below 2^-4 are not distinguished.
 const LEAST: i32 = -4;
 /// Number of buckets; the last has no upper end.
 const BUCKETS: usize = 26;

@@ -58,7 +58,7 @@ impl Case {
         self.found.insert(name.to_owned(), number.into());
     }
 
-    /// Adds what is told of errors.
+    /// Adds the figures of errors.
     pub fn spread(&mut self, of: &str, errors: Errors) {
         let Spread { p50, p99, max, buckets } = errors.spread();
         for (part, value) in [("p50", p50), ("p99", p99), ("max", max)] {
@@ -67,7 +67,7 @@ impl Case {
         self.buckets.insert(of.to_owned(), buckets.into());
     }
 
-    /// A number that was told; 0 where there is none.
+    /// A figure of the row; 0 if it is missing.
     pub fn number(&self, name: &str) -> f64 {
         self.found.get(name).and_then(Value::as_f64).unwrap_or_default()
     }

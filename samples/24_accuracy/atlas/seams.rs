@@ -1,4 +1,4 @@
-//! Rays at the edges and corners that triangles of a closed mesh share: how many are lost, how many meet two.
+//! Rays at shared edges and corners of a closed mesh: the numbers of lost rays and of double hits.
 
 use anyhow::Result;
 use common::gpu::Gpu;
@@ -16,10 +16,10 @@ use super::world::{Build, Rows, Traversal, World};
 use crate::batch::IDENTITY;
 use crate::query::Ray;
 
-/// So far from edge-on are the triangles that a ray is aimed at: the cosine of ray and normal.
+/// The least cosine of ray and normal of the triangles aimed at, so that they are not edge-on.
 const FACING: f64 = 0.3;
 
-/// An aim, and the triangles that meet there.
+/// A target, and the triangles that share it.
 struct Aimed {
     ray: Ray,
     fan: Vec<usize>,
@@ -124,12 +124,12 @@ fn places() -> [(&'static str, Rows); 6] {
     ]
 }
 
-/// Tests whether no ray was lost, and none met two triangles.
+/// Returns whether no ray was lost, and none hit two triangles.
 fn is_watertight(cases: &[Case]) -> bool {
     cases.iter().all(|case| case.number("lost") == 0.0 && case.number("doubled") == 0.0)
 }
 
-/// Whom to ask, and how.
+/// The tracer, and its settings.
 pub struct Asked<'a> {
     pub gpu: &'a Gpu,
     pub tracer: &'a Tracer,

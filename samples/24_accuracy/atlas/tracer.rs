@@ -14,7 +14,7 @@ use crate::query::Ray;
 
 /// Maximum number of recorded any-hit calls per ray, as in atlas.glsl.
 const MOST: usize = 16;
-/// The primitive of a ray that met nothing, as in atlas.glsl.
+/// The primitive of a ray that hit nothing, as in atlas.glsl.
 pub const NOTHING: u32 = u32::MAX;
 /// Rays of a launch: some milliseconds of any device.
 const AT_ONCE: usize = 1 << 16;
@@ -31,7 +31,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// A primitive that the device says a ray meets, and where.
+    /// A primitive reported by the device for a ray, and its hit.
     pub struct Met {
         /// Of the build; what [`Answer`] hands out is the shape's number instead.
         pub primitive: u32,
@@ -92,7 +92,7 @@ struct Launched {
     founds: Vec<Found>,
     /// A row of [`MOST`] a ray.
     calls: Vec<Met>,
-    /// Of each ray's triangle, if the device hands them out; zeros where a ray missed.
+    /// The vertices of each ray's triangle, if the device provides them; zeros if a ray missed.
     corners: Vec<[Vec3; 3]>,
 }
 
@@ -123,7 +123,7 @@ impl Tracer {
         Ok(Self { gpu: gpu.clone(), what, pipeline, sbt })
     }
 
-    /// Traces rays, and tells what each has found, in their order.
+    /// Traces rays, and returns the result of each, in order.
     ///
     /// # Errors
     /// If the device fails.

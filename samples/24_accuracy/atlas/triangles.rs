@@ -15,14 +15,14 @@ use super::world::{Build, Corners, Traversal, World};
 use crate::batch::IDENTITY;
 use crate::query::Ray;
 
-/// Triangles of a family, a world of eight each: as many as can lie along a ray and be noted twice.
+/// Triangles of a family, in worlds of eight: as many as can be on one ray and be recorded twice.
 const WORLDS: usize = 8;
 const TRIANGLES: usize = 8;
 
-/// By how many ULP the worst arithmetic moves a hit, and chapters are tested with it.
+/// The error of a hit in the worst arithmetic, in ULP, with which the chapters are tested.
 const MOVED: f64 = 16.0;
 
-/// Names of what is told.
+/// The names of the figures.
 const T_PART: &str = "t, part of what is excused";
 const WEIGHTS_PART: &str = "weights, part of what is excused";
 const BEYOND: &str = "not excused";
@@ -42,7 +42,7 @@ struct Family {
     tilt: f64,
     /// Its width by its length.
     width: f64,
-    /// Of its middle from the world's origin.
+    /// The distance of its middle from the world's origin.
     place: f64,
 }
 
@@ -130,7 +130,7 @@ struct Tally {
     weights_part: f64,
     missed: u64,
     beside: u64,
-    /// Of the missed and the hit beside: how many are not excused.
+    /// The numbers of missed triangles and of hit neighbours without an excuse.
     beyond: u64,
     not_finite: u64,
     differ: u64,
@@ -196,7 +196,7 @@ impl Family {
         (along, [a, b, c])
     }
 
-    /// A ray at a point of the triangle that lies not right at its border.
+    /// A ray at a point of the triangle that is not right at its border.
     fn ray(&self, random: &mut Random, (along, corners): &(DVec3, Corners)) -> Ray {
         let (p, q) = (random.between(0.05, 0.9), random.between(0.05, 0.9));
         let (p, q) = if p + q > 0.95 { (0.95 - p, 0.95 - q) } else { (p, q) };

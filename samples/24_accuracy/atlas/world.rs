@@ -14,7 +14,7 @@ pub type Corners = [Vec3; 3];
 /// Three rows of four: a shape's space to the world's.
 pub type Rows = [[f32; 4]; 3];
 
-/// The test that decides where a ray meets a triangle.
+/// The test that determines the hit of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Traversal {
     /// The device.

@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::{number, vector};
 use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum};
 
-/// Beyond the 2^24 at which a sum of floats stands still; ten seconds on the software driver.
+/// Beyond the 2^24 at which a sum of floats stops growing; ten seconds on the software driver.
 const LONGEST_SUM: u32 = 1 << 26;
 
 /// The shape of this primitive with these fields.

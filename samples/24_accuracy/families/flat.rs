@@ -131,7 +131,7 @@ fn far_plane(draw: Draw) -> Family {
     const AT: f64 = 148_376.0;
     let corner = |i: usize, j: usize| {
         let along = |i: usize| 12.0 * i as f64 / CELLS as f64 - 6.0;
-        // Not quite flat, or no plane could tell the edges apart.
+        // Not quite flat, because otherwise no plane could separate the edges.
         let bump = ((5 * i + 3 * j) % 7) as f64 / 64.0;
         DVec3::new(AT + bump, along(i), along(j)).as_vec3()
     };

@@ -60,7 +60,7 @@ impl<'a> Truth<'a> {
                 let mesh = self.meshes[number].as_ref().expect("made for every mesh");
                 mesh.closest_hit(&exact, |_| true).map(|hit| hit.t)
             }
-            // Nothing convex is met again by a ray that leaves it; what lies above is met.
+            // A ray that leaves a convex shape does not hit it again; it hits the shape above.
             Shape::Leaving(Leaving { gap: None, .. }) => None,
             Shape::Leaving(leaving) => {
                 let gap = leaving.gap.expect("matched above");

@@ -52,7 +52,7 @@ fn check<E: Error>(number: f64, low: f64, high: f64) -> Result<f64, E> {
     }
 }
 
-/// So many numbers, no fewer and no more: the reader of arrays would pass over what is too much.
+/// Parses exactly `N` numbers: the usual reader of arrays would ignore further ones.
 fn numbers<const N: usize, E: Error>(value: &Value) -> Result<[f64; N], E> {
     let Value::Array(list) = value else {
         let example = vec!["1"; N].join(", ");

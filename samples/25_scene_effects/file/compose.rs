@@ -234,7 +234,7 @@ impl Description {
 }
 
 impl Description {
-    /// Warns of surfaces that are too large, or too far away, for what stands on them.
+    /// Warns of surfaces that are too large, or too far away, for the objects on them.
     fn warn_of_planets(&self, to: &mut Composition, path: &Path, source: &Source) {
         let told = departure::told(to);
         let line = |span: Range<usize>, what: &str| source.error(span.start, what).to_string();

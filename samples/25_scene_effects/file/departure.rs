@@ -1,4 +1,4 @@
-//! Surfaces so large or so far away that a ray which leaves one starts above what stands on it.
+//! Surfaces so large or so far away that a ray leaving one starts above the objects on it.
 
 mod flat;
 
@@ -11,18 +11,18 @@ use crate::{Composition, Sphere};
 /// The error of one rounding in 32 bits, relative.
 const ROUNDING: f32 = f32::EPSILON / 2.0;
 
-/// The part of a thing's height that its shadow may lose.
+/// The part of an object's height that its shadow may lose.
 const PART: f32 = 1.0 / 16.0;
 
-/// Surfaces of a kind that are looked at: the largest, or those that reach farthest.
+/// The number of surfaces of a kind that are checked: the largest, or those that reach farthest.
 const LARGEST: usize = 16;
 
-/// A thing that may stand on a surface, with a ball around it.
+/// An object that may be on a surface, with a bounding sphere.
 #[derive(Clone, Copy)]
 struct Thing {
     center: Vec3,
     radius: f32,
-    /// From end to end.
+    /// The diameter.
     size: f32,
 }
 
@@ -34,16 +34,16 @@ impl Thing {
     }
 }
 
-/// What is wrong: the number of the first surface of each kind from which rays start too high, and the message.
+/// The number of the first surface of each kind from which rays start too high, and the message.
 pub(super) struct Told {
     pub sphere: Option<(usize, String)>,
     pub block: Option<(usize, String)>,
     pub solid: Option<(usize, String)>,
-    /// Of meshes, the message names it.
+    /// For meshes, the message contains the name.
     pub mesh: Option<String>,
 }
 
-/// Looks at all surfaces of a composition, and all that may stand on them.
+/// Checks all surfaces of a composition, and all objects that may be on them.
 pub(super) fn told(of: &Composition) -> Told {
     let ball =
         |&Sphere { center, radius, .. }: &Sphere| Thing { center, radius, size: 2.0 * radius };
@@ -59,7 +59,7 @@ pub(super) fn told(of: &Composition) -> Told {
     }
 }
 
-/// The number of a sphere from which rays start too high for a thing that stands on it, and what is wrong.
+/// The number of a sphere from which rays start too high for an object on it, and the message.
 fn too_high(spheres: &[Sphere], things: &[Thing]) -> Option<(usize, String)> {
     let mut order: Vec<usize> = (0..spheres.len()).collect();
     order.sort_by_key(|&number| Reverse(spheres[number].radius.to_bits()));
@@ -78,7 +78,7 @@ fn too_high(spheres: &[Sphere], things: &[Thing]) -> Option<(usize, String)> {
     })
 }
 
-/// The message about a thing on a surface from which rays start at a height.
+/// The message about an object on a surface from which rays start at a height.
 fn lost(surface: &str, height: f32, thing: &Thing) -> String {
     format!(
         "rays that leave {surface} start up to {} above it, to be safe from rounding in 32 bits; a thing of size {} \

@@ -1,4 +1,4 @@
-//! A scene file, version 1: camera, lights, materials, what stands where, a plane, spheres and boxes.
+//! A scene file, version 1: camera, lights, materials, placed objects, a plane, spheres and boxes.
 //!
 //! TOML. Every table but `camera` may be missing; an unknown key is an error, and so is a number that is
 //! not finite or out of bounds. `model` names an OBJ file in the scene file's folder or below it: each of
@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::bounded;
 use crate::{GlassKind, Pattern};
 
-/// A scene file as it stands.
+/// A scene file as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {

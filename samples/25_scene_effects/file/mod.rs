@@ -26,7 +26,7 @@ use crate::Composition;
 /// Version of the format that this program reads.
 const VERSION: i64 = 1;
 
-/// Opens a scene file, or a model as it stands, under its lights or else a sun.
+/// Opens a scene file, or a plain model, under its lights or else a sun.
 ///
 /// # Errors
 /// If it is missing or wrong, in one line with file and line.

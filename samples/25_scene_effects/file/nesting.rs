@@ -2,7 +2,7 @@
 
 use toml_parser::parser::{Event, EventKind};
 
-/// Maximum nesting: no key of a scene file stands deeper than 3.
+/// The maximum nesting: no key of a scene file is nested deeper than 3.
 pub(super) const MOST: usize = 16;
 
 /// Follows a parser into tables and lists, and out again.
@@ -14,12 +14,12 @@ pub(super) struct Nesting {
     key: usize,
     /// The same for each table in braces and each list that is open, with itself.
     open: Vec<usize>,
-    /// The byte at which something stands deeper than it may.
+    /// The byte at which the nesting exceeds the limit.
     pub too_deep: Option<usize>,
 }
 
 impl Nesting {
-    /// Goes on with what the parser has met.
+    /// Continues after a token of the parser.
     pub fn add(&mut self, event: &Event) {
         use EventKind as Kind;
         if self.too_deep.is_some() {

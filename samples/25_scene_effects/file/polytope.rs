@@ -10,7 +10,7 @@ const FAR: f64 = 1e6;
 /// Adds the faces of a solid to `faces` and returns it with the corners of the box around it.
 ///
 /// # Errors
-/// If the half-spaces enclose nothing, or no bounded body: then a corner lies on a cube far away.
+/// If the half-spaces enclose nothing, or an unbounded body: then a corner is on a distant cube.
 pub(super) fn solid(
     center: Vec3,
     planes: &[[f64; 4]],
@@ -51,7 +51,7 @@ pub(super) fn solid(
     Ok((solid, (at(low - room), at(high + room))))
 }
 
-/// The points where three walls meet that no other wall cuts off.
+/// The intersections of three walls that no other wall cuts off.
 fn corners(walls: &[(DVec3, f64)]) -> Vec<DVec3> {
     let mut corners = Vec::new();
     for (i, a) in walls.iter().enumerate() {

@@ -29,7 +29,7 @@ pub(super) struct Tally {
     lists: usize,
     /// Commas: values of a list, or keys in braces.
     values: usize,
-    /// The byte at which something stands in too many tables and lists.
+    /// The byte at which the number of tables and lists exceeds the limit.
     pub too_deep: Option<usize>,
 }
 

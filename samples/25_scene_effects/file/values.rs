@@ -1,4 +1,4 @@
-//! From a table of a scene file to the value that it stands for.
+//! Converts a table of a scene file to its value.
 
 use common::scene::{DiskLight, Light, LightKind, Material, PointLight, Sun};
 

@@ -1,6 +1,6 @@
 //! The reader's complaints in words of our own, which say what to write. The TOML reader's speak of its insides.
 
-/// The keys that stand above all tables.
+/// The keys outside of all tables.
 const ABOVE: [&str; 4] = ["version", "model", "position", "sky"];
 
 /// The tables of which there is one, and those of which there may be several.
@@ -59,7 +59,7 @@ const NUMBERS: [&str; 9] = [
     "float",
 ];
 
-/// The number that `1,5` stands for in many countries.
+/// The number that is written as `1,5` in many countries.
 fn decimal(value: &str) -> Option<String> {
     let (whole, fraction) = value.split_once(',')?;
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -12,7 +12,7 @@ fn chance(i: u64) -> f32 {
     ((z ^ z >> 31) >> 40) as f32 / (1 << 24) as f32
 }
 
-/// Cubes at random, of a thirtieth of the cube that they lie in.
+/// Random cubes, of a thirtieth of the cube that contains them.
 fn crowd(count: u64) -> Vec<Bounds> {
     let at = |i| Vec3::new(chance(3 * i), chance(3 * i + 1), chance(3 * i + 2));
     (0..count).map(|i| (at(i), at(i) + 0.03)).collect()

@@ -29,7 +29,7 @@ fn node(boxes: [Option<Bounds>; 2]) -> Node {
     Node { children: boxes.map(|bounds| bounds.map_or(Child::NONE, child)) }
 }
 
-/// Tests whether each box holds the one that it stands for, whoever finds it; and one around nothing holds nothing.
+/// Checks that each box contains the one it represents, and that a box around nothing contains nothing.
 fn holds(exact: &Node) -> bool {
     let packed = quantised(&[*exact]).unwrap()[0];
     let held = exact.children.iter().enumerate().all(|(side, child)| {

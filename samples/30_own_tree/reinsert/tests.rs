@@ -58,7 +58,7 @@ fn none_is_deeper_than_the_stack() {
     for rounds in 0..5 {
         check(&reinserted(chain.clone(), &bounds, rounds), &bounds).unwrap();
     }
-    // Where each that is put in would best lie below all others.
+    // Each primitive would best be inserted below all others.
     let nested: Vec<Bounds> =
         (1..5000).map(|i| Vec3::splat(1.01f32.powi(i))).map(|at| (-at, at)).collect();
     let tree = reinserted(binned(&nested), &nested, 10);

@@ -1,4 +1,4 @@
-//! A game: the moves of a text file, each held to the rules of chess.
+//! A game: the moves of a text file, each checked by the rules of chess.
 
 use std::path::Path;
 

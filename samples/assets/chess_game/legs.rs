@@ -13,11 +13,11 @@ const HALF_MOVE: usize = 48;
 const WAIT: usize = 10;
 /// Frames after the last move.
 const END: usize = 192;
-/// Height to which a piece is lifted over others, and the height of the table, where the taken ones stand.
+/// The height of a piece lifted over others, and the height of the table, where captured pieces are.
 const LIFT: f32 = 2.3;
 const TABLE: f32 = -0.34;
 
-/// The legs of a game whose moves stand in the file `name`.
+/// The legs of a game whose moves are in the file `name`.
 pub fn write(game: &[Played], name: &str) -> String {
     let start = Position::start();
     let mut men: Vec<_> =
@@ -63,7 +63,7 @@ fn place(square: Square) -> Vec3 {
     Vec3::new(f32::from(square.file) - 3.5, 0.0, 3.5 - f32::from(square.rank))
 }
 
-/// Beside the board, where the pieces of a side stand that were taken.
+/// The place next to the board for a side's captured pieces.
 fn aside(side: Side, count: u8) -> Vec3 {
     let (row, rank) = (f32::from(count % 2), f32::from(count / 2));
     let (way, from) = if side == Side::White { (-1.0, -3.5) } else { (1.0, 3.5) };

@@ -27,7 +27,7 @@ pub struct Square {
     pub rank: i8,
 }
 
-/// A piece on the board: `number` tells it from all others.
+/// A piece on the board; `number` identifies it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Man {
     pub kind: Kind,
@@ -167,7 +167,7 @@ impl Position {
         !after.is_attacked(man.side)
     }
 
-    /// Tests whether the king of a side stands where another piece reaches.
+    /// Returns whether the king of a side is on a square that another piece attacks.
     fn is_attacked(&self, side: Side) -> bool {
         let is_king = |man: Man| man.kind == Kind::King && man.side == side;
         let Some(king) = squares().find(|&at| self.at(at).is_some_and(is_king)) else {

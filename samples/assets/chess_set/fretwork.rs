@@ -41,7 +41,7 @@ pub fn image() -> RgbaImage {
             colour += BRASS * light * coverage;
             covered += coverage;
         }
-        // Where nothing is, the colour still counts: a sampler blends it with its neighbours'.
+        // The colour counts even where nothing is opaque: a sampler interpolates it with its neighbours'.
         let colour = if covered > 0.0 { colour / covered } else { BRASS };
         let [r, g, b] = colour.to_array().map(srgb);
         let alpha = covered / f64::from(SAMPLES * SAMPLES);

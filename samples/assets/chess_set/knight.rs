@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use crate::nets::{self, Grid};
 use crate::pieces::foot;
 
-/// The height of the foot, on which the neck stands.
+/// The height of the foot, which supports the neck.
 const FOOT: f64 = 0.335;
 
 /// Spines as (x, y, radius, half the thickness): where the body is in the plane of symmetry, how

@@ -205,7 +205,7 @@ pub fn on_circle(point: DVec2, angle: f64) -> DVec3 {
     DVec3::new(point.x * angle.sin(), point.y, point.x * angle.cos())
 }
 
-/// The tangents before and after a knot, made one where the knot is no crease.
+/// The tangents before and after a knot, made equal unless the knot is a crease.
 fn smooth(knot: Knot) -> (DVec2, DVec2) {
     if knot.before.dot(knot.after) < CREASE {
         return (knot.before, knot.after);

@@ -76,7 +76,7 @@ fn make(check: bool) -> Result<()> {
             continue;
         }
         let found = std::fs::read(&path).with_context(|| format!("reading {}", path.display()))?;
-        // A newer encoder may pack the same picture into other bytes, which is no difference.
+        // A newer encoder may pack the same picture into other bytes, which does not count as a difference.
         let same = if name.ends_with(".png") {
             image::load_from_memory(&found).is_ok_and(|found| found.to_rgba8() == picture)
         } else {

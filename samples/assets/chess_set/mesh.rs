@@ -21,7 +21,7 @@ pub const QUANTUM: f64 = 1e-5;
 pub struct Vertex {
     /// In squares of the board; y points up.
     pub position: DVec3,
-    /// Of unit length, pointing out of the solid.
+    /// A unit vector, pointing out of the solid.
     pub normal: DVec3,
     /// Texture coordinates.
     pub uv: DVec2,
@@ -58,7 +58,7 @@ impl Mesh {
         }
     }
 
-    /// Adds a flat convex polygon with the given normal; texture coordinates lie in its plane.
+    /// Adds a flat convex polygon with the given normal; texture coordinates are in its plane.
     pub fn flat(&mut self, corners: &[DVec3], normal: DVec3) {
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         let vertex = |&position: &DVec3| Vertex {

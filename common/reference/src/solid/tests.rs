@@ -78,7 +78,7 @@ fn between_boundaries_membership_is_that_of_the_point() {
         let boundaries = solid.boundaries(&ray);
         for pair in boundaries.windows(2) {
             assert!(pair[0].enters != pair[1].enters && pair[0].t < pair[1].t);
-            // Within a sliver, f64 cannot tell.
+            // Within a sliver, f64 cannot decide.
             if pair[1].t - pair[0].t > 1e-9 {
                 let middle = ray.at((pair[0].t + pair[1].t) / 2.0);
                 assert_eq!(solid.contains(middle), pair[0].enters, "{solid:?} {ray:?}");
@@ -137,7 +137,7 @@ fn what_touches_has_no_gap_and_nothing_in_common() {
         assert!(places(&common).is_empty(), "{ray:?}");
         assert_eq!(places(&rest), places(&left), "{ray:?}");
     }
-    // A ball that is only touched is not met.
+    // A ball that is only touched is not hit.
     let touched = ball(DVec3::ZERO, 1.0);
     let ray = Ray { direction: DVec3::X, ..towards(DVec3::new(-3.0, 1.0, 0.0), DVec3::ZERO) };
     assert!(touched.boundaries(&ray).is_empty() && touched.boundaries_exact(&ray).is_none());

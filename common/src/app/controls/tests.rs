@@ -159,7 +159,7 @@ fn a_name_given_again_begins_another_round() {
     assert_eq!((again.preset, again.height), (0, 1.0));
     let last = Presets::with(&["height=5", "height=6"]).unwrap();
     assert_eq!(last.height, 6.0);
-    // Whatever stands in the way of the rest is told.
+    // Whatever prevents the rest is reported.
     let wrong = Presets::with(&["height=11", "height=6"]).unwrap_err();
     assert!(wrong.contains("'height' cannot be '11'"), "{wrong}");
     let absent = Presets::with(&["height=5", "extra=3"]).unwrap_err();

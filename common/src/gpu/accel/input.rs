@@ -17,7 +17,7 @@ const INSTANCE: u64 = 64;
 /// A part of the input: how many of what, the address, and the bytes a build reads there.
 type Read = (u32, &'static str, vk::DeviceAddress, u64);
 
-/// Checks that everything a build reads lies in arrays that exist.
+/// Checks that everything a build reads is in existing arrays.
 ///
 /// # Errors
 /// Names the geometry of `name`, what is wrong, and what would be right.

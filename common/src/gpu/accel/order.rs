@@ -71,7 +71,7 @@ enum Key {
 fn centre((low, high): &Bounds, axis: usize) -> i32 {
     // Halved before adding: the sum of two finite corners may overflow.
     let bits = (low[axis] * 0.5 + high[axis] * 0.5).to_bits() as i32;
-    // Of negative floats the larger bits are the smaller number.
+    // For negative floats, larger bits mean a smaller number.
     bits ^ (((bits >> 31) as u32) >> 1) as i32
 }
 
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_left_part_takes_the_odd_one() {
-        // Of five boxes on a line the first three go left, whatever their order.
+        // Of five boxes on a line, the first three go left, in any order.
         let mut right = kd_median(&on_a_line([3, 0, 4, 1, 2]))[3..].to_vec();
         right.sort_unstable();
         assert_eq!(right, [0, 2]);

@@ -21,7 +21,7 @@ pub(super) struct Plan {
 
 impl Plan {
     /// # Errors
-    /// If a count exceeds the device's limit, or the input lies in no buffer.
+    /// If a count exceeds the device's limit, or the input is in no buffer.
     pub(super) fn new(gpu: &Gpu, (name, list): Input, options: BuildOptions) -> Result<Self> {
         let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
         let (name, geometries) = (name.to_owned(), list.to_vec());

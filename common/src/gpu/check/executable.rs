@@ -31,7 +31,7 @@ impl Executable {
         pipeline: vk::Pipeline,
     ) -> Result<Vec<Self>> {
         let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
-        // SAFETY: the pipeline is alive and was made to tell its statistics.
+        // SAFETY: the pipeline is alive and was created with statistics enabled.
         let programs = unsafe { device.get_pipeline_executable_properties(&info)? };
         let mut all = Vec::new();
         for (index, program) in programs.iter().enumerate() {

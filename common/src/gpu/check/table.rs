@@ -1,4 +1,4 @@
-//! A shader binding table in words: which shaders a record selects, and which instances ask for it.
+//! A shader binding table in words: the shaders selected by a record, and the instances that use it.
 
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ impl Table {
             let of = if group.kind == boxes { "boxes" } else { "triangles" };
             let users = asked.iter().filter(|(asked, _)| asked.record as usize == record);
             let users: Vec<_> = users.map(|(_, user)| format!("'{user}'")).collect();
-            // A ray may add to the record of an instance, and ask for this one.
+            // A ray may add to the record of an instance, and so use this one.
             let users = if users.is_empty() { "no instance".to_owned() } else { users.join(", ") };
             format!("{name}\thit {record}\t{}\tfor {of}, asked for by {users}", shaders(group))
         });

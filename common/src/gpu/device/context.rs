@@ -225,7 +225,7 @@ impl Gpu {
         self.statistics.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Statistics since the last call, for a caller that asks repeatedly.
+    /// Statistics since the last call, for a caller that polls.
     pub fn take_statistics(&self) -> Statistics {
         let mut all = self.statistics.lock().unwrap_or_else(PoisonError::into_inner);
         let Statistics { acceleration_structure_bytes, warnings, .. } = &*all;

@@ -33,7 +33,7 @@ impl Arrays {
         within.iter().for_each(|at| _ = self.0.remove(at));
     }
 
-    /// The part of an array that begins at an address; `None` if no array lies there.
+    /// The part of an array that begins at an address; `None` if there is no array.
     pub fn from(&self, address: vk::DeviceAddress) -> Option<Array> {
         let (start, array) = self.0.range(..=address).next_back()?;
         let skipped = address - start;

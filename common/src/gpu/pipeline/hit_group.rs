@@ -4,7 +4,7 @@ use ash::vk;
 
 use crate::gpu::pipeline::desc::Group;
 
-/// A hit group: the shaders called when a ray meets one kind of geometry.
+/// A hit group: the shaders called when a ray hits one kind of geometry.
 #[derive(Clone, Copy, Default)]
 pub struct HitGroup<'a> {
     intersection: Option<&'a str>,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sbt::hit_record;
 
-/// A hit record as instances ask for it.
+/// A hit record, as used by instances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct AskedRecord {
     /// The record of the first geometry for a ray with `sbtRecordOffset` 0.
@@ -194,7 +194,7 @@ mod tests {
         );
         assert!(said(ray(0, 1, 0)).unwrap().contains("record 0 + 1 (geometry 1), which is"));
         assert!(said(ray(0, 3, 0)).unwrap().contains("0 + 3 (geometry 1), and the shader"));
-        // A ray that skips all triangles asks for no record of theirs.
+        // A ray that skips all triangles uses no record of theirs.
         assert_eq!(said(ray(1, 0, RayRecord::SKIP_TRIANGLES)), None);
         let beyond = said(ray(3, 0, 0)).unwrap();
         assert!(beyond.contains("camera.rgen: a ray has the sbtRecordOffset 3"), "{beyond}");

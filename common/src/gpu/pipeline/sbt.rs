@@ -20,7 +20,7 @@ pub struct Region {
     pub offset: u64,
     /// From one record to the next.
     pub stride: u64,
-    /// Of all its records; 0 for a region without any.
+    /// The size of all its records; 0 for a region without any.
     pub size: u64,
 }
 

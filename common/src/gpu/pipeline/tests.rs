@@ -1,4 +1,4 @@
-//! Mistakes of a program's own pipeline: each is told in one line.
+//! Mistakes in a program's own pipeline: each is reported in one line.
 
 use super::*;
 use crate::gpu::{GpuOptions, Requirements, TextureTable};
@@ -79,7 +79,7 @@ fn an_address_in_the_push_constants_is_that_of_a_buffer() {
         let descriptors = [tlas, Descriptor::StorageImage(&image)];
         gpu.submit(|cmd| pipeline.bind(cmd, &descriptors, push))
     };
-    // 0 stands for no address.
+    // 0 means no address.
     bind(&push).unwrap();
     let address = buffer.address;
     drop(buffer);

@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn names_are_equal_only_if_their_bytes_are() {
     let red: &[u8] = b"\x8d\x95";
-    // One that stands for the first byte of `red`, were it not taken apart.
+    // One that would represent the first byte of `red` if it were not decomposed.
     let private = "\u{10ff8d}\u{10ff95}".as_bytes();
     let names = [
         red,

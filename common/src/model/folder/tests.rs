@@ -31,7 +31,7 @@ fn a_path_is_judged_by_where_it_leads() {
     // No such folder, as on Windows.
     silent("m.mtl", "gone/../t.png", "t.png");
     silent("a/b/c/m.mtl", "..\\..\\..\\t.png", "t.png");
-    // Beside the OBJ file, though the MTL file lies elsewhere.
+    // Next to the OBJ file, although the MTL file is in another folder.
     silent("mats/m.mtl", "t.png", "t.png");
     silent("mats/m.mtl", "textures/t.png", "textures/t.png");
     // The MTL file's own comes first.

@@ -14,7 +14,7 @@ struct Feature {
 }
 
 impl Features {
-    /// Of a file by its name in messages.
+    /// An empty list, for a file with this name in messages.
     pub fn of(shown: &str) -> Self {
         Self { shown: shown.to_owned(), list: Vec::new() }
     }

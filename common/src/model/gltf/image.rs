@@ -41,7 +41,7 @@ pub(super) struct Images<'a> {
     /// Bytes left for texels.
     left: u64,
     pub textures: Vec<Texture>,
-    /// By image, sampling and threshold, which is 0 without holes.
+    /// The known textures by image, sampling and threshold, which is 0 without holes.
     known: HashMap<(usize, Sampling, u32), Option<Loaded>>,
     means: HashMap<usize, Option<Vec3>>,
     /// Bytes left for texels of which only the mean is taken: decoding them takes time.

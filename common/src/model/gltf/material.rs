@@ -175,7 +175,7 @@ impl<'a> Values<'a> {
             };
         }
         let pbr = &source.pbr_metallic_roughness;
-        // One value stands for the texture of both: roughness is in green, metal in blue.
+        // One value replaces the texture of both: roughness is in green, metal in blue.
         let texture = pbr.metallic_roughness_texture.as_ref();
         let mean = texture.and_then(|info| images.mean(info.index, features)).unwrap_or(Vec3::ONE);
         Self {
@@ -270,7 +270,7 @@ fn through_a_unit(volume: &Volume) -> Vec3 {
     if distance > 0.0 { color.powf(1.0 / distance) } else { Vec3::ONE }
 }
 
-/// Light of the surface's own. Returns true if a texture of it stands for the surface's colour.
+/// The surface's own light. Returns true if its texture replaces the surface's colour.
 fn set_emission(
     material: &mut Material,
     source: &Source,

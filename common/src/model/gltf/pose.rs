@@ -1,4 +1,4 @@
-//! The pose of a mesh: its morph targets at their first weights, and its skin on the joints as the nodes stand.
+//! The pose of a mesh: its morph targets at their first weights, and its skin on the nodes' joints.
 
 use anyhow::Result;
 use glam::{DMat4, DVec3, Vec3};

@@ -49,9 +49,9 @@ struct Tally {
     vertices: u64,
     triangles: u64,
     meshes: u64,
-    /// Of vertices, for each target.
+    /// The number of vertices, counted once for each target.
     moves: u64,
-    /// Of the skins of all nodes.
+    /// The number of joints in the skins of all nodes.
     joints: u64,
 }
 

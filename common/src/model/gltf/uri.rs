@@ -34,7 +34,7 @@ impl<'a> Uri<'a> {
             let bytes = BASE64.decode(data.trim_ascii());
             return bytes.map(Self::Data).map_err(|_| anyhow!("is a data URI that is not base64"));
         }
-        // A drive's letter is no scheme; the folder refuses it.
+        // A drive's letter is not a scheme; the folder refuses it.
         if let Some((scheme, _)) = uri.split_once(':')
             && scheme.len() > 1
             && scheme.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"+-.".contains(&byte))

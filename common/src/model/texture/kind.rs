@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail, ensure};
 
-/// Bytes at the beginning that tell the kind.
+/// The bytes at the beginning that identify the kind.
 pub(super) const HEAD: u64 = 24;
 
 /// A kind that is read.

@@ -1,4 +1,4 @@
-//! Mistakes of a program's own scene: each is told in one line.
+//! Mistakes in a program's own scene: each is reported in one line.
 
 use glam::{Affine3A, Mat3A, Vec2, Vec3A};
 
@@ -76,7 +76,7 @@ fn a_top_level_keeps_its_bottom_levels_alive() {
     drop(cone);
     assert_eq!(bytes(), before);
     assert!(gpu.level_at(address).is_some());
-    // Where nothing keeps it, it is gone, and an instance of it is refused.
+    // Without an owner it is dropped, and an instance of it is refused.
     drop(top);
     assert!(of_one > 0);
     assert_eq!(bytes(), ball.size);

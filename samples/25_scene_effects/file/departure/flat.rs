@@ -13,13 +13,13 @@ use crate::{Box, Face, Solid};
 /// meets it.
 const SLIVER: f32 = 0.01;
 
-/// Triangles that are looked at, once for each thing that may stand on their mesh.
+/// The number of triangles checked, counted once for each object that may be on their mesh.
 const TRIANGLES: usize = 1 << 24;
 
-/// A face: it lies in a box, and belongs to a body with a ball around it.
+/// A face: it has a bounding box, and belongs to a body with a bounding sphere.
 struct Flat {
     point: Vec3,
-    /// Of unit length.
+    /// A unit vector.
     normal: Vec3,
     bounds: (Vec3, Vec3),
     radius: f32,
@@ -67,7 +67,7 @@ fn farthest(bounds: impl Iterator<Item = (Vec3, Vec3)>) -> impl Iterator<Item = 
     order.into_iter().take(LARGEST)
 }
 
-/// The number of a box from which rays start too high for a thing that stands on it, and what is wrong.
+/// The number of a box from which rays start too high for an object on it, and the message.
 pub(super) fn block(boxes: &[Box], things: &[Thing]) -> Option<(usize, String)> {
     farthest(boxes.iter().map(|block| (block.low, block.high))).find_map(|number| {
         let Box { low, high, .. } = boxes[number];
@@ -111,7 +111,7 @@ pub(super) fn solid(
     })
 }
 
-/// What is wrong with a mesh from which rays start too high for a thing that stands on it.
+/// The message about a mesh from which rays start too high for an object on it.
 pub(super) fn meshes(scene: &Scene, bounds: &[(Vec3, Vec3)], things: &[Thing]) -> Option<String> {
     let mut left = TRIANGLES;
     farthest(bounds.iter().copied()).find_map(|number| {
@@ -217,7 +217,7 @@ mod tests {
             let block = Box { low, high, material: 0 };
             super::block(&[block], &[at(high.y)])
         };
-        // Its point lies on the face, however far the others are.
+        // Its point is on the face, however far the others are.
         assert_eq!(told(-1e6, 0.0), None);
         assert_eq!(told(-1.0, 1e4), None);
         let (_, what) = told(-1.0, 1e6).unwrap();

@@ -25,7 +25,7 @@ fn reads_a_scene() {
     let path = std::env::var_os(FILE).unwrap();
     let before = status("VmRSS");
     let source = Source::open(path.as_ref()).unwrap();
-    // Wrong or not: what it takes is asked.
+    // Valid or not: only the counts are tested.
     let read = source.table().and_then(|table| source.read::<Description>(table));
     let (right, taken) = (read.is_ok(), status("VmHWM") - before);
     let text = std::fs::read_to_string(path).unwrap();

@@ -86,7 +86,7 @@ fn an_answer_is_judged_by_its_margin() {
     let flat = |normal, offset| Solid::HalfSpace { normal, offset };
     let all = Solid::Intersection(vec![]);
     let ray = Ray { direction: DVec3::NEG_Y, ..towards(DVec3::Y * 3.0, DVec3::ZERO) };
-    // Two planes cross where the ray meets them, all but exactly.
+    // Two planes cross almost exactly where the ray hits them.
     let edge = |apart: f64| {
         Solid::Intersection(vec![flat(DVec3::Y, 1.0), flat(DVec3::new(1.0, 1.0, 0.0), 1.0 + apart)])
     };

@@ -117,7 +117,7 @@ fn in_a_small_window_the_panel_waits_until_it_is_asked_for() {
     harness.run();
     assert!(harness.query_by_label("shadows").is_none(), "Tab hides it");
     assert!(harness.query_by_label("Panel (Tab)").is_none(), "whoever has hidden it knows how");
-    // Tab opens it at once, too, and an error is told in its place.
+    // Tab also opens it immediately, and an error is shown in its place.
     let mut harness = harness_of(480.0, Facts::default());
     harness.key_press(Key::Tab);
     harness.run();

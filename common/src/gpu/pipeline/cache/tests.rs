@@ -76,7 +76,7 @@ fn a_damaged_file_is_ignored_and_replaced() {
 fn what_another_driver_has_left_is_not_shown_to_this_one() {
     let (gpu, properties) = gpu();
     let folder = tempfile::tempdir().unwrap();
-    // By the name of a driver that this one is not, the file holds what this one has left.
+    // Under the name of another driver, the file contains what this one has left.
     let mut other = properties;
     other.pipeline_cache_uuid[0] ^= 1;
     for _ in 0..2 {
@@ -128,7 +128,7 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
     let (second, _) = timed();
     println!("{first:.1} ms, then {second:.1} ms with {kept} bytes");
     if let Some(folder) = std::env::var_os("FIGURES") {
-        // What `figures::give_timed` writes, which belongs to tests that stand on this crate.
+        // As written by `figures::give_timed`, which belongs to tests that depend on this crate.
         let given = json!({ "timed": true, "device": "RADV", "driver": driver,
                             "values": { "first": first, "second": second } });
         fs::create_dir_all(Path::new(&folder).join("needs")).unwrap();

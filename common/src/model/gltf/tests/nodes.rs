@@ -1,4 +1,4 @@
-//! What nodes place: meshes, poses, lights, cameras.
+//! Objects placed by nodes: meshes, poses, lights, cameras.
 
 use glam::Vec3;
 
