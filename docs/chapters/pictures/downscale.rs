@@ -1,6 +1,6 @@
 //! Pictures that are made larger than a page shows them, so that their edges are smooth.
 //!
-//! Most chapters trace one ray a pixel. A picture of 1920 by 1200 that is shown as 960 by 600 has four.
+//! Most chapters trace one ray per pixel. A picture of 1920 by 1200 that is shown as 960 by 600 has four.
 
 use common::app::Picture;
 

@@ -48,7 +48,7 @@ fn the_mean_of_many_rays_is_the_closed_form() {
     run::needs!(NAME);
     let pixels = exact();
     assert!(pixels.len() > 2000, "{}", pixels.len());
-    // With one ray a pixel each is open or not, and independent of its neighbours.
+    // With one ray per pixel each is open or not, and independent of its neighbours.
     let picture = run_of(&["show=ambient occlusion", "occlusion rays=1"], 1).picture;
     let found: f64 = pixels.iter().map(|&(pixel, _)| f64::from(picture.pixels[pixel][0])).sum();
     let expected: f64 = pixels.iter().map(|(_, open)| open).sum();
