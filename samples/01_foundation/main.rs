@@ -396,7 +396,7 @@ fn render(
     };
     let copy_target = vk::BufferUsageFlags::TRANSFER_DST;
     let readback = gpu.buffer("the readback", 16 * pixels, copy_target, Place::ToHost, 1)?;
-    story.tell("image", format!("{width}x{height}, 16 bytes a pixel: {} bytes", readback.size));
+    story.tell("image", format!("{width}x{height}, 16 bytes per pixel: {} bytes", readback.size));
 
     // ---- 7. The pipeline: three shaders, each in a group of its own
 

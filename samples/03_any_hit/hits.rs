@@ -20,8 +20,8 @@ pub fn list(gpu: &Gpu, rays: u64) -> Result<Buffer> {
     let most = gpu.limits.max_buffer_size() / size(1);
     ensure!(
         rays <= most,
-        "a list of all hits takes {} bytes a pixel: {} has room for {most} pixels, not for {rays}; a \
-         smaller picture fits",
+        "a list of all hits takes {} bytes per pixel: {} has room for {most} pixels, not for {rays}; \
+         a smaller picture fits",
         size(1),
         gpu.name
     );

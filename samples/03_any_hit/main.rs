@@ -124,7 +124,7 @@ impl Sample for Demo {
         if self.hits.size < hits::size(rays) {
             self.hits = hits::list(frame.gpu, rays)?;
         }
-        // The frame before may still write the list when this one begins.
+        // The previous frame may still write the list when this one begins.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: hits
         // ANCHOR: trace

@@ -1,4 +1,4 @@
-//! 04 · Jitter camera: many rays a pixel, one a frame, each through another point of it.
+//! 04 · Jitter camera: many rays per pixel, one per frame, each through another point of it.
 //!
 //! New since 02_basic: a random place for each ray, the filter that weighs the pixel's neighbourhood, and an
 //! image that keeps the mean of all frames since anything changed.
@@ -93,7 +93,7 @@ impl Sample for Demo {
         if self.means.extent != frame.image.extent {
             self.means = Image::storage(frame.gpu, "means", frame.image.extent)?;
         }
-        // The frame before may still write its means when this one begins to read them.
+        // The previous frame may still write its means when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: means
         // ANCHOR: trace

@@ -1,8 +1,8 @@
 //! 19 · Ray cones: a ray carries a cone, and the cone's width at a textured hit determines the mip level.
 //!
 //! New since 41_ray_offset: mipmaps, a floor of tiles that reaches to the horizon (`floor.rs`), a cone in the
-//! payload, four ways to say what a lookup covers (`footprint.glsl`, `lookup.glsl`), and many rays a pixel to compare
-//! them with.
+//! payload, four ways to say what a lookup covers (`footprint.glsl`, `lookup.glsl`), and many rays per pixel to
+//! compare them with.
 
 mod floor;
 

@@ -47,7 +47,7 @@ common::shader_enum! {
         Patterns,
         /// Lines along the edges of triangles (20).
         Wireframe,
-        /// Several rays a pixel (04).
+        /// Several rays per pixel (04).
         AntiAliasing = "anti-aliasing",
         /// A lens with a diameter (28).
         DepthOfField,

@@ -163,7 +163,7 @@ impl Sample for Demo {
         if is_start {
             self.sums.clear(frame.cmd);
         }
-        // The frame before may still write its sums when this one begins to read them.
+        // The previous frame may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         if is_start {
             let light = Light::point(&self.lamp);

@@ -122,7 +122,7 @@ impl Sample for Demo {
         if self.means.extent != frame.image.extent {
             self.means = Image::storage(frame.gpu, "means", frame.image.extent)?;
         }
-        // The frame before may still write its means when this one begins to read them.
+        // The previous frame may still write its means when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR: trace
         let push = Push {

@@ -168,7 +168,7 @@ impl Sample for Demo {
         if frame.accumulated == 0 && frame.is_first_band() {
             self.sums.clear(frame.cmd);
         }
-        // The frame before may still write its sums when this one begins to read them.
+        // The previous frame may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR: trace
         let push = Push {

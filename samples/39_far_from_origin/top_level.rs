@@ -55,7 +55,7 @@ impl TopLevel {
     }
 }
 
-/// The inverse in f64, once a piece, and not in f32, once a ray or by the device.
+/// The inverse in f64, once per piece, and not in f32, once per ray or by the device.
 fn record(piece: &Piece) -> PieceRecord {
     let columns = piece.linear.to_cols_array().map(f64::from);
     PieceRecord {

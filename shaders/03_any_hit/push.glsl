@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     DirectionalLight light;
     float opacity;       // of the pieces, in the random modes
-    uint samples;        // rays a pixel, in the random modes
+    uint samples;        // rays per pixel, in the random modes
     uint invocations;    // how often a decision is made, as if the device called so often
     uint layer;
     Hits hits;           // MAX_HITS for each pixel

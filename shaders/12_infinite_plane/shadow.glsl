@@ -10,7 +10,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     if (PLANE_TEST == TEST_BEFORE && plane < FAR) {
         return false;
     }
-    // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
+    // Any hit will do, and no shader needs to hear of it. No surface here has an any-hit shader.
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
         | gl_RayFlagsOpaqueEXT;
     lit = false;
@@ -19,7 +19,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
         flags,
         0xff,                       // cull mask: every instance
         0,                          // sbtRecordOffset: no hit shader runs
-        1,                          // sbtRecordStride: one record a geometry
+        1,                          // sbtRecordStride: one record per geometry
         1,                          // missIndex: shadow.rmiss
         origin,
         0.0,                        // tmin: the origin lies off the surface

@@ -55,7 +55,7 @@ Hit trace(vec3 origin, vec3 direction) {
     return hit;
 }
 
-// One ray a pixel, through its middle; and from what it meets, one to the light.
+// One ray per pixel, through its middle; and from what it meets, one to the light.
 void main() {
     // ANCHOR: band
     uvec2 at = gl_GlobalInvocationID.xy;

@@ -8,7 +8,7 @@ float now;
 layout(location = 1) rayPayloadEXT bool lit;
 
 bool is_lit(vec3 origin, vec3 to_light, float end) {
-    // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
+    // Any hit will do, and no shader needs to hear of it. No surface here has an any-hit shader.
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
         | gl_RayFlagsOpaqueEXT;
     lit = false;
@@ -17,7 +17,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
         flags,
         mask_of(now),               // cull mask: what stands, and what moves as it is now
         0,                          // sbtRecordOffset: no closest hit shader runs
-        1,                          // sbtRecordStride: one record a geometry
+        1,                          // sbtRecordStride: one record per geometry
         1,                          // missIndex: shadow.rmiss
         origin,
         tmin_of(now),            // tmin: the time

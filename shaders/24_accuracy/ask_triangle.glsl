@@ -1,4 +1,4 @@
-// A ray against a mesh: nine numbers a triangle.
+// A ray against a mesh: nine numbers per triangle.
 #include "answer.glsl"
 #include "common/triangle.glsl"
 

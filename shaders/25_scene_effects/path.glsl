@@ -18,7 +18,7 @@ struct Path {
     uint sample_index;   // which of the pixel's samples this is
     uint bounce;         // the next ray's number: 0 comes from the camera
     vec3 color;          // what the eye sees so far
-    vec3 throughput;     // what part of the light at the end of the next ray reaches the eye
+    vec3 throughput;     // the part of the next hit's light that reaches the eye
 #ifdef EFFECT_BOUNCES
     uint bounces;        // how often it was scattered
 #endif

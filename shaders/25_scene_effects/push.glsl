@@ -123,7 +123,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint light_count;
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size
-    uint samples;         // rays a pixel
+    uint samples;         // rays per pixel
     uint first_sample;    // the number of the first
     uint depth;           // how often a path may be reflected or refracted
     uint bounces;         // how often it may be scattered

@@ -15,7 +15,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end, bool on_plane) {
         RAY_FLAGS | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT,
         RAY_MASK,       // cull mask: the kinds of geometry that there are shaders for
         0,              // sbtRecordOffset: the first hit record of the instance
-        1,              // sbtRecordStride: one record a geometry
+        1,              // sbtRecordStride: one record per geometry
         1,              // missIndex: shadow.rmiss
         origin,
         tmin,           // 0, or the time: the origin lies off the surface

@@ -5,7 +5,7 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 layout(location = 1) rayPayloadEXT bool lit;
 
 bool is_lit(RayOrigin start, vec3 to_light) {
-    // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
+    // Any hit will do, and no shader needs to hear of it. No surface here has an any-hit shader.
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
         | gl_RayFlagsOpaqueEXT;
     lit = false;
@@ -14,7 +14,7 @@ bool is_lit(RayOrigin start, vec3 to_light) {
         flags,
         0xff,                       // cull mask: every instance
         0,                          // sbtRecordOffset: no hit shader runs
-        1,                          // sbtRecordStride: one record a geometry
+        1,                          // sbtRecordStride: one record per geometry
         1,                          // missIndex: shadow.rmiss
         start.origin,
         start.tmin,

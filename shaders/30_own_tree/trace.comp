@@ -43,7 +43,7 @@ vec4 view_of(Hit hit, Met met, vec3 direction, RayOrigin start, float visible) {
     }
 }
 
-// One ray a pixel, through its middle; and from what it meets, one to the light.
+// One ray per pixel, through its middle; and from what it meets, one to the light.
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(at, push.band.size))) {

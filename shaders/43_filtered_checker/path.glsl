@@ -5,7 +5,7 @@
 // ANCHOR: path
 struct Path {
     vec4 color;        // what the eye sees so far
-    vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
+    vec3 throughput;   // the part of the next hit's light that reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
 };
 

@@ -1,6 +1,6 @@
 // Taught by 37_sequences.
 //
-// Points of the unit square, one a frame.
+// Points of the unit square, one per frame.
 //
 // Coordinates are whole numbers of 2^-32. They wrap around by themselves, lose no digit however far a
 // sequence goes, and have the same bits on every device.

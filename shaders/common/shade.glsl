@@ -41,7 +41,7 @@ vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 
     // Eye and light may be opposite: then their sum is 0, and has no direction.
     vec3 half_way = view + light;
     half_way *= inversesqrt(max(dot(half_way, half_way), 1e-30));
-    // Half the squared distance of unit vectors is 1 - cosine, with digits that the cosine has no room for.
+    // Half the squared distance of unit vectors is 1 - cosine, with more digits than the cosine can hold.
     vec3 apart = normal - half_way;
     float highlight = power_of_cosine(0.5 * dot(apart, apart), shininess);
     return (base + specular * highlight * (shininess + 8.0) / 8.0) * lambert / 3.14159265;

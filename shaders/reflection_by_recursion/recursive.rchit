@@ -15,8 +15,8 @@ hitAttributeEXT vec2 barycentrics;
 // The nearest hit: lit here, and the mirrored ray is traced from here.
 void main() {
     // ANCHOR: trace
-    // The built-in variables are read before anything is traced: afterwards the software driver takes
-    // these for the last ray's own.
+    // The built-in variables are read before anything is traced: afterwards the software driver
+    // returns those of the last ray traced.
     Hit hit = report(push.scene, barycentrics);
     Ray ray = Ray(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT);
     advance(path, ray, hit);
@@ -26,7 +26,7 @@ void main() {
             gl_RayFlagsNoneEXT,
             0xff,                       // cull mask: every instance
             0,                          // sbtRecordOffset: the first hit record of the instance
-            1,                          // sbtRecordStride: one record a geometry
+            1,                          // sbtRecordStride: one record per geometry
             0,                          // missIndex: recursive.rmiss
             ray.origin,
             0.0,                        // tmin

@@ -206,7 +206,7 @@ fn memory_that_cannot_be_had() {
     let software = ["--device", "llvmpipe"];
     let (code, line) = run::refused("03_any_hit", &[&arguments[..], &software].concat());
     if code == 1 {
-        assert!(line.contains("a list of all hits takes 384 bytes a pixel: llvmpipe"), "{line}");
+        assert!(line.contains("a list of all hits takes 384 bytes per pixel: llvmpipe"), "{line}");
         assert!(line.contains(" pixels, not for 11468800; a smaller picture fits"), "{line}");
     } else {
         println!("not tried: {line}");

@@ -170,7 +170,7 @@ fn a_card_s_limits_and_memory_bound_a_picture() {
     let square = |pixels: u64| pixels.isqrt() + 1;
     let size = |side: u64| format!("{side}x{side}");
     let most = format!("at most {side} a side and {rays} pixels");
-    let lists = "a list of all hits takes 384 bytes a pixel";
+    let lists = "a list of all hits takes 384 bytes per pixel";
     for (size, settings, words) in [
         (format!("{}x10", side + 1), &[][..], ["is too large for", &most]),
         (size(square(rays)), &[][..], ["is too large for", &most]),

@@ -313,11 +313,10 @@ fn a_list_of_hits_that_has_no_room_is_refused_with_what_would_fit() {
         assert!(words.iter().all(|word| line.contains(word)), "{line}");
     };
     // Limited by maxBufferSize and maxMemoryAllocationSize, 2^30 bytes.
-    let words =
-        ["a list of all hits takes 384 bytes a pixel", "room for 2796202 pixels, not for 3000000"];
-    refused("", "3000x1000", words);
+    let size = "a list of all hits takes 384 bytes per pixel";
+    refused("", "3000x1000", [size, "room for 2796202 pixels, not for 3000000"]);
     // Limited by the available memory.
-    refused("heap=268435456", "1000x700", [words[0], "room for 699050 pixels, not for 700000"]);
+    refused("heap=268435456", "1000x700", [size, "room for 699050 pixels, not for 700000"]);
 }
 
 /// In a table that is written before it is bound, a device may support no more than 16 textures.

@@ -278,7 +278,7 @@ pub fn draw_panels(name: &str, zoom: u32, rows: &[Vec<Shown>]) {
 
 fn enlarged(picture: &Picture, [left, top, width, height]: [u32; 4], zoom: u32) -> RgbImage {
     let whole = RgbImage::from_raw(picture.width, picture.height, picture.srgb())
-        .expect("a picture has three bytes a pixel");
+        .expect("a picture has three bytes per pixel");
     let crop = imageops::crop_imm(&whole, left, top, width, height).to_image();
     imageops::resize(&crop, width * zoom, height * zoom, imageops::FilterType::Nearest)
 }

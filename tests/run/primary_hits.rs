@@ -81,8 +81,8 @@ impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { agree, ties, grazes, wrong, .. } = self;
         let [half, most, worst] = self.errors();
-        write!(f, "{agree} rays agree, {ties} ties, {grazes} at edges, {wrong} wrong; ")?;
-        write!(f, "t is off by {half:.1} ULP (median), {most:.1} (p99), {worst:.1} (most)")
+        write!(f, "{agree} rays agree, {wrong} are wrong, {ties} ties, {grazes} at edges; ")?;
+        write!(f, "t is off by {half:.1} ULP (median), {most:.1} (99 %), {worst:.1} (at most)")
     }
 }
 

@@ -59,8 +59,8 @@ fn the_program_tells_every_step() {
     let expected = "device limits vertices bottom instance top built image pipeline table frame frame \
                     written";
     assert_eq!(steps, expected.split_whitespace().collect::<Vec<_>>(), "{text}");
-    for part in ["240x150, 16 bytes a pixel: 576000 bytes", "3 groups", "frame       2: 36000 rays"]
-    {
+    let image = "240x150, 16 bytes per pixel: 576000 bytes";
+    for part in [image, "3 groups", "frame       2: 36000 rays"] {
         assert!(text.contains(part), "no '{part}' in {text}");
     }
 }
