@@ -126,7 +126,7 @@ impl Recipe {
     }
 }
 
-/// Hit groups stand without gaps, so each has the number of its place.
+/// The pipeline of a recipe. Its hit groups are numbered without gaps.
 pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<RayTracingPipeline> {
     let mut builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .define("SPECIALISED", 1)

@@ -164,7 +164,7 @@ impl Sample for Demo {
     }
 }
 
-/// One stage, and a stack for the trees that there are.
+/// One stage, and a stack deep enough for these trees.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<ComputePipeline> {
     ComputePipeline::builder(env!("CARGO_BIN_NAME"))
         .compute("trace.comp")

@@ -91,7 +91,7 @@ Interval in_part(Part part, vec3 o, vec3 d) {
 }
 // ANCHOR_END: interval
 
-// Tests whether the solid contains a point that is in these of its parts: bit i is part i. The program is in
+// Tests whether the solid contains a point, given the parts that contain it: bit i is part i. The program is in
 // postfix order, and its stack is the bits of a number.
 bool holds(SolidRecord solid, uint members) {
     uint stack = 0;
@@ -212,7 +212,7 @@ bool first_crossing(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax, o
         if (was_in == holds(solid, after) || t < clip.enter || t > clip.leave) {
             continue;
         }
-        // Back from after to before, one part at a time: the first that undoes the change has the face.
+        // Undo the changes, one part at a time: the part that restores the old result has the face.
         // Where a cutter only touches the solid, the face is the solid's, not the cutter's.
         uint members = after;
         for (uint i = 0; i < interval_count; i++) {

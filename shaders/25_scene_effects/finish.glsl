@@ -20,7 +20,7 @@ bool is_of(uint pattern, uint kind) {
     return pattern == kind && (PATTERNS >> kind & 1) != 0;
 }
 
-// The part of the second colour at a place, 0 to 1.
+// The weight of the second colour at a place, 0 to 1.
 float second_at(uint pattern, vec3 place) {
     if (is_of(pattern, PATTERN_MARBLE)) {
         return marble(place, 0);

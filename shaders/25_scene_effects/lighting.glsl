@@ -63,7 +63,7 @@ float visibility(DiskLight disk, RayOrigin start, Hit hit, vec2 first) {
 }
 #endif
 
-// A light of the world. If all are of one kind, the compiler is told which.
+// A light of the world. If all are of one kind, that kind is a constant for the compiler.
 DiskLight light_of(uint number) {
     DiskLight disk = push.world.lights[number];
     disk.light.kind = LIGHT_KINDS == 1 ? LIGHT_DIRECTIONAL

@@ -7,7 +7,7 @@ struct Path {
     vec3 color;        // what the eye sees so far
     vec3 throughput;   // the part of the next hit's light that reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
-    bool asked;        // true if a shadow ray from the next ray's origin has already counted the lamp
+    bool lamp_counted; // true if a shadow ray from the next ray's origin has already counted the lamp
     uvec4 media;       // the bodies that the next ray is in
 };
 
@@ -82,7 +82,7 @@ void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
     ray.origin = hit.position + side * hit.offset * hit.face;
     // ANCHOR_END: choice
     // A shadow ray does not see through glass: the light behind it is met by chance.
-    path.asked = false;
+    path.lamp_counted = false;
 }
 
 // Lights and gathers the surface that a ray has met, and chooses the next ray.
@@ -94,7 +94,7 @@ void advance(inout Path path, inout Ray ray, BodyHit seen) {
     }
     // ANCHOR_END: absorb
     // ANCHOR: chance
-    if (!path.asked) {
+    if (!path.lamp_counted) {
         gather(path, seen_of_light(push.world.light, ray.origin, ray.direction, hit.t));
     }
     // ANCHOR_END: chance
@@ -138,13 +138,13 @@ void advance(inout Path path, inout Ray ray, BodyHit seen) {
     if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
         path.throughput *= mirror / mirrors;
         ray.direction = mirrored(ray.direction, hit.normal, hit.face);
-        path.asked = false;
+        path.lamp_counted = false;
     } else {
         vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
         ray.direction = kept_above(on, hit.face);
         float to_next = max(dot(hit.normal, ray.direction), 0.0);
         path.throughput *= scattered(material, color, to_eye, to_next) / (1.0 - mirrors);
-        path.asked = asks;
+        path.lamp_counted = asks;
     }
     path.bounce++;
     ray.origin = hit.position + hit.offset * hit.face;

@@ -13,7 +13,7 @@ struct Ray {
     float growth;         // by how much boxes grow
 };
 
-// `growth` is for a coordinate of 1; `reach` is the largest coordinate in the tree.
+// `growth` is that of a box per unit of the largest coordinate; `reach` is the largest coordinate in the tree.
 Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
     float farthest = max(max(abs(origin.x), abs(origin.y)), abs(origin.z)) + reach;
     float grown = BOXES == BOXES_BOUND ? growth * farthest : BOXES == BOXES_GUESS ? 1e-5 : 0.0;
@@ -36,7 +36,7 @@ float entered_slabs(Ray ray, vec3 low, vec3 high, float tmax) {
     precise vec3 to_high = high - (ray.origin - ray.growth);
     precise vec3 near = mix(to_high, to_low, up) * ray.inverse;
     precise vec3 far = mix(to_low, to_high, up) * ray.inverse;
-    // Rows that begin with a number need not look out for NaN at each step.
+    // Each chain begins with a number, so the compiler needs no test for NaN at each step.
     float enter = max(near.x, max(near.y, max(near.z, 0.0)));
     float leave = min(tmax, min(far.x, min(far.y, min(far.z, MISSED))));
     if (BOXES == BOXES_IZE || BOXES == BOXES_BOUND) {

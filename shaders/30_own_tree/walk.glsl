@@ -71,7 +71,7 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
         }
         // ANCHOR_END: instance
         // ANCHOR: node
-        // Two nodes a turn, for there are many more of them than of anything else.
+        // Two nodes per turn, because most entries are nodes.
         for (uint step = 0; step < 2 && entry <= FIRST_MASK; step++) {
             Node node = QUANTISED ? unpacked(trees.packed.at[entry]) : trees.nodes.at[entry];
             met.boxes++;
@@ -80,8 +80,8 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
             float b = entered(ray, node.children[1], met.t);
             uint near = b < a ? entry_of(node.children[1]) : entry_of(node.children[0]);
             uint far = b < a ? entry_of(node.children[0]) : entry_of(node.children[1]);
-            // The near child comes first: what is found there may spare the far one. That is written in any case,
-            // and counts only if both are met.
+            // The near child comes first: a hit in it may spare the far one. The far one is always written,
+            // but counts only if the ray enters both.
             stack[height] = far;
             height += a < MISSED && b < MISSED ? 1 : 0;
             entry = a < MISSED || b < MISSED ? near : NOTHING;

@@ -47,8 +47,8 @@ Split fresnel_exact(float cosine, float from, float to) {
     float p = sqrt(p2);
     float k2 = from * from * (1.0 - cosine) * (1.0 + cosine);
     float sum = q + p;
-    float across = squares / (sum * sum);              // the amplitude that swings across the plane
-    float within = (q * p - k2) / (q * p + k2);        // and, relative to it, that which swings within it
+    float across = squares / (sum * sum);              // the amplitude perpendicular to the plane
+    float within = (q * p - k2) / (q * p + k2);        // the parallel amplitude, relative to it
     float relative = from * to / (q * p + k2);
     return Split(
         across * across * vec2(1.0, within * within),

@@ -36,7 +36,7 @@ figures.add("solids", figure => {
             if (was === is) {
                 return [];
             }
-            // Back from after to before, a part at a time: the first that undoes the change has the face.
+            // Undo the changes, one part at a time: the part that restores the old result has the face.
             const part = after[0] !== before[0] && holds(before[0], after[1]) === was ? 0 : 1;
             return [{ t, part, comes: after[part], enters: is }];
         });
