@@ -59,10 +59,10 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Triangles => {
             count(scene.scene.instances.len(), "placed mesh").map(|n| n.replace("meshs", "meshes"))
         }
-        Textures => worn(&|m| m.base_texture.is_some(), "has map_Kd"),
+        Textures => worn(&|m| m.base_texture.is_some(), "has a texture"),
         FilteredTextures if !scene.filtered => None,
-        FilteredTextures => worn(&|m| m.base_texture.is_some(), "has map_Kd, to be filtered"),
-        CutOut => worn(&|m| m.opacity_texture.is_some(), "has map_d")
+        FilteredTextures => worn(&|m| m.base_texture.is_some(), "has a texture, to be filtered"),
+        CutOut => worn(&|m| m.opacity_texture.is_some(), "has an opacity texture")
             .or_else(|| worn(&|m| m.opacity < 1.0, "is not opaque")),
         Spheres => count(scene.spheres.len(), "sphere"),
         Boxes => count(scene.boxes.len(), "box").map(|n| n.replace("boxs", "boxes")),
@@ -104,8 +104,8 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
 fn why_not(effect: Effect) -> &'static str {
     match effect {
         Triangles => "no mesh is placed",
-        Textures => "no material in use has map_Kd",
-        FilteredTextures => "no material in use has map_Kd, or none is to be filtered",
+        Textures => "no material in use has a texture",
+        FilteredTextures => "no material in use has a texture, or none is to be filtered",
         CutOut => "every material in use is opaque",
         Spheres => "no sphere",
         Boxes => "no box",
