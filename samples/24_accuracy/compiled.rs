@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use anyhow::{Result, bail};
 use common::app::Progress;
 use common::gpu::PipelineDesc;
-use instruments::compile_for::{Family, programs};
+use instruments::compile_for::{Family, Radeon, programs};
 
 use crate::measurement::{Compiled, MeasuredRung, Measurement};
 
@@ -40,7 +40,7 @@ pub fn compile(rungs: &mut [MeasuredRung], progress: &mut Progress) -> Result<()
             row.compiled_for.push(Compiled { program, ratio: 0.0 });
         }
     }
-    let cost = |compiled: &Compiled| compiled.program.inverse_throughput.max(1) as f64;
+    let cost = |compiled: &Compiled| figures(compiled).inverse_throughput.max(1) as f64;
     for ladder in rungs.chunk_by_mut(|a, b| a.primitive == b.primitive) {
         let families = ladder.iter().flat_map(|row| &row.compiled_for);
         let all: Vec<_> = families.map(|c| (c.program.family, cost(c))).collect();
@@ -51,6 +51,11 @@ pub fn compile(rungs: &mut [MeasuredRung], progress: &mut Progress) -> Result<()
         }
     }
     Ok(())
+}
+
+/// RADV's figures: all of [`FAMILIES`] are its.
+fn figures(compiled: &Compiled) -> Radeon {
+    compiled.program.radeon().cloned().unwrap_or_default()
 }
 
 /// Time and estimate of one rung.
@@ -85,9 +90,9 @@ pub fn table(ladder: &[MeasuredRung]) -> String {
         };
         let time = row.time.map_or(String::new(), |time| format!("{:.2}", time.ratio.median));
         let ratios = all(&|c| format!("{:.2}", c.ratio));
-        let throughput = all(&|c| c.program.inverse_throughput.to_string());
+        let throughput = all(&|c| figures(c).inverse_throughput.to_string());
         let instructions = all(&|c| c.program.instructions.to_string());
-        let registers = all(&|c| c.program.registers.to_string());
+        let registers = all(&|c| figures(c).registers.to_string());
         let _ = writeln!(
             text,
             "| {} {} | {time} | {ratios} | {throughput} | {instructions} | {registers} |",

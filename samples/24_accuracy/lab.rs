@@ -8,7 +8,7 @@ use common::app::{Args, RunHooks, check_validation};
 use common::files::{self, write_whole};
 use common::gpu::{Gpu, Requirements};
 use common::output;
-use instruments::{Instruments, Options, check_files};
+use instruments::{Instruments, Options, check_files, idle};
 
 use crate::atlas::{self, Extent, Traversal};
 use crate::disagreement::Disagreement;
@@ -123,6 +123,7 @@ impl Lab {
         let report = options.report.report.clone();
         Instruments::new(options).device(&mut device);
         let gpu = Gpu::new(&device)?;
+        idle::refuse(&gpu, "there are no answers to compare")?;
         let validation = gpu.validation();
         if let Some(cases) = &self.cases {
             hard::run(&gpu, cases, self.tops, report.as_deref())?;

@@ -12,6 +12,7 @@ use instruments::Options;
 use instruments::columns::columns;
 use instruments::compare::{self, Comparison, Ratio};
 use instruments::compile_for::{CompiledFor, Family, programs};
+use instruments::idle;
 use serde::Deserialize;
 
 use crate::Demo;
@@ -105,6 +106,7 @@ impl RunHooks for Table {
     }
 
     fn begin(&mut self, run: &mut Run) -> Result<()> {
+        idle::refuse(&run.gpu, "there are no times to compare")?;
         let report = run.sample.report()?;
         let reasons: Vec<Reason> = serde_json::from_value(report["effects"].clone())?;
         let (needed, others): (Vec<_>, Vec<_>) = reasons.iter().partition(|reason| reason.needed);

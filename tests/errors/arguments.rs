@@ -50,10 +50,10 @@ fn options() {
             &["--pixel", "1,1", "--validate"],
             "'--pixel <X,Y|click>' cannot be used with '--validate'",
         ),
-        (&["--compile-for"], "[possible values: navi21, navi31, gfx1201, all]"),
+        (&["--compile-for"], "[possible values: navi21, navi31, gfx1201, dg2, bmg, all]"),
         (
             &["--compile-for", "nonsense"],
-            "invalid value 'nonsense' for '--compile-for <FAMILY>' [possible values: navi21, navi31, gfx1201, all]",
+            "invalid value 'nonsense' for '--compile-for <FAMILY>' [possible values: navi21, navi31, gfx1201, dg2, bmg, all]",
         ),
     ] {
         refused(arguments, 2, &[words]);

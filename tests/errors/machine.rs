@@ -135,6 +135,19 @@ fn no_compiler_for_another_gpu() {
     refused_by(command, 1, &["(RADV), which is not installed", SETUP]);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn no_intel_card_to_compile_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = sample();
+    command.args(["--compile-for", "dg2"]).env("XDG_CACHE_HOME", folder.path());
+    let words = [
+        "cannot compile for dg2: what stands in for Intel's cards is not built",
+        "tests/intel/build",
+    ];
+    refused_by(command, 1, &words);
+}
+
 /// A machine whose only driver is outside the loader's folders, so that a variable has to name it.
 #[cfg(target_os = "linux")]
 #[test]

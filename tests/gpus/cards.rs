@@ -6,6 +6,8 @@ use run::cards::{Card, refusal, report, said};
 use run::layer::Layer;
 use run::{chapters, command};
 
+use crate::sweep::{TINY, runs_all, shows_all};
+
 /// The card used by every plain run of the tests.
 const CARD: Card = Card("navi31");
 const NAME: &str = "AMD Radeon RX 7900 XTX (RADV NAVI31)";
@@ -24,41 +26,6 @@ const OTHERS: [Card; 9] = [
 /// A card without ray tracing.
 const OLD: Card = Card("navi10");
 const OLD_NAME: &str = "AMD Radeon RX 5700 XT (RADV NAVI10)";
-
-const TINY: [&str; 4] = ["--headless", "--validate", "--size", "16x10"];
-
-/// Runs every chapter on a card to its end.
-fn runs_all(card: Card) {
-    let name = format!("(RADV {})", card.0.to_uppercase());
-    for sample in chapters() {
-        let Some(mut command) = card.command(&sample) else { return };
-        let output = command.args(TINY).args(["--report", "-"]).output().expect("it starts");
-        let report = report(&format!("{sample} on {name}"), &output);
-        assert!(
-            report["device"].as_str().unwrap().ends_with(&name),
-            "{sample}: {}",
-            report["device"]
-        );
-    }
-}
-
-/// Shows each value of each choice and switch of a sample, one after the other in one process.
-fn shows_all(sample: &str) {
-    let list = command(sample).arg("--list-controls").output().expect("it starts").stdout;
-    for line in String::from_utf8(list).expect("text").lines() {
-        let mut cells = line.split('\t');
-        let [name, kind, values] =
-            [(); 3].map(|()| cells.next().expect("a control has four cells"));
-        if !["choice", "switch"].contains(&kind) {
-            continue;
-        }
-        let Some(mut command) = CARD.command(sample) else { return };
-        let all = format!("{name}={}", values.replace(", ", "|"));
-        let output = command.args(TINY).args(["--compare", &all]).output().expect("it starts");
-        assert!(output.status.success(), "{sample}, {all}: {}", said(&output));
-        assert_eq!(said(&output), "", "{sample}, {all}: not silent");
-    }
-}
 
 /// In a window, the figures are requested from every driver; without them it stays open.
 #[test]
@@ -88,13 +55,13 @@ fn every_chapter_runs_on_every_card_that_the_shim_has() {
 /// Recursive mirrors need another pipeline of the same shaders, and each view one more.
 #[test]
 fn each_view_of_a_chapter_runs_there_too() {
-    shows_all("06_reflection");
+    shows_all(CARD, "06_reflection", &[]);
 }
 
 #[test]
 #[ignore = "nightly: 140 runs; quick: cards::each_view_of_a_chapter_runs_there_too"]
 fn each_view_and_preset_of_every_chapter_runs_there_too() {
-    chapters().iter().for_each(|sample| shows_all(sample));
+    chapters().iter().for_each(|sample| shows_all(CARD, sample, &[]));
 }
 
 /// A machine with a Radeon and the software driver, for a sample.

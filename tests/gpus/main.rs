@@ -7,6 +7,10 @@ mod cards;
 #[cfg(target_os = "linux")]
 mod choice;
 #[cfg(target_os = "linux")]
+mod intel;
+#[cfg(target_os = "linux")]
 mod narrowest;
+#[cfg(target_os = "linux")]
+mod sweep;
 #[cfg(target_os = "linux")]
 mod without_rays;

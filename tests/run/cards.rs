@@ -1,15 +1,20 @@
-//! Stand-ins for Radeon cards with their complete driver: Mesa's RADV over Mesa's drm-shim.
+//! Stand-ins for Radeon and Intel cards with their complete drivers: Mesa's RADV and ANV over Mesa's drm-shim.
 //!
 //! Limits, memory, images, builds and traces are the card's. Submitted work is never executed, so pictures
 //! are empty and are compared with nothing.
 
 use std::ffi::OsString;
+use std::os::unix::process::CommandExt;
 use std::process::{Command, Output};
 
-use instruments::compile_for::{manifest, ways};
+use common::exit::child::bound_memory;
+use instruments::compile_for::{Maker, Variables, manifest, ways};
 use serde_json::Value;
 
 use crate::{command, device};
+
+/// Memory of a program on an Intel card: it reads counts that nothing has written, and might believe them.
+const MOST_BYTES: u64 = 16 << 30;
 
 /// Lines that RADV and the shim print to standard error by themselves.
 const NOISE: [&str; 3] =
@@ -24,25 +29,34 @@ pub struct Card(pub &'static str);
 
 impl Card {
     /// The environment in which a program finds only this card; `None`, with a message, if there is no shim.
-    pub fn environment(self) -> Option<Vec<(&'static str, OsString)>> {
-        let [mut variables, _] = ways(self.0);
+    pub fn environment(self) -> Option<Variables> {
+        match self.variables() {
+            Ok(variables) => Some(variables),
+            Err(why) => {
+                println!("not tried on {}: {why}", self.0);
+                None
+            }
+        }
+    }
+
+    fn variables(self) -> Result<Variables, String> {
+        let mut variables = ways(self.0).map_err(|error| error.to_string())?.swap_remove(0);
         // The dynamic linker itself reports whether it finds the library.
         let linker = Command::new("true").envs(variables.clone()).output().expect("`true` starts");
-        let manifest = match manifest() {
-            Ok(manifest) if linker.stderr.is_empty() => manifest,
-            _ => {
-                println!(
-                    "not tried: no card can be had without mesa-drm-shim and RADV: run ./setup"
-                );
-                return None;
-            }
-        };
-        variables.push((DRIVERS, manifest.into()));
-        Some(variables)
+        if !linker.stderr.is_empty() {
+            return Err("no card can be had without mesa-drm-shim: run ./setup".to_owned());
+        }
+        variables.push((DRIVERS, manifest(self.0).map_err(|error| error.to_string())?.into()));
+        Ok(variables)
+    }
+
+    /// Tests whether a device of this name is this card.
+    pub fn is(self, device: &str) -> bool {
+        Maker::of(self.0).is(self.0, device)
     }
 
     /// The same with the software driver in addition, as on a machine with both.
-    pub fn beside_software(self) -> Option<Vec<(&'static str, OsString)>> {
+    pub fn beside_software(self) -> Option<Variables> {
         let mut variables = self.environment()?;
         let radv = &mut variables.last_mut().expect("the driver's manifest").1;
         let folder = std::path::Path::new(radv).parent().expect("it lies in a folder").to_owned();
@@ -82,7 +96,21 @@ impl Card {
     pub fn command(self, name: &str) -> Option<Command> {
         let mut command = command(name);
         command.envs(self.environment()?);
+        if Maker::of(self.0) == Maker::Intel {
+            bound(&mut command);
+        }
         Some(command)
+    }
+}
+
+/// Limits the memory of a program.
+fn bound(command: &mut Command) {
+    // SAFETY: between fork and exec the child makes this one call, which is allowed there.
+    unsafe {
+        command.pre_exec(|| {
+            bound_memory(MOST_BYTES);
+            Ok(())
+        });
     }
 }
 

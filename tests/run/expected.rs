@@ -34,7 +34,12 @@ pub fn hold_exact(name: &str, values: Value) {
 /// Compares the figures of a GPU's compiler, which are the same in every run, for a generation such as
 /// `RDNA3`.
 pub fn hold_compiled(name: &str, compiler: &str, generation: &str, values: Value) {
-    settle(name, false, ("RADV".into(), format!("{compiler}, {generation}").into()), values);
+    hold_compiled_by("RADV", name, compiler, generation, values);
+}
+
+/// The same of another driver's compiler.
+pub fn hold_compiled_by(driver: &str, name: &str, compiler: &str, generation: &str, values: Value) {
+    settle(name, false, (driver.into(), format!("{compiler}, {generation}").into()), values);
 }
 
 /// Returns whether this device and its driver are those of stored values.

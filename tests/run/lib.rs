@@ -201,7 +201,12 @@ pub fn copy(from: &Path, to: &Path) {
 }
 
 /// The messages of samples if the compiler of a missing GPU is not available.
-pub const NO_COMPILER: [&str; 2] = ["(RADV), which is not installed", "stands in for no such card"];
+pub const NO_COMPILER: [&str; 4] = [
+    "(RADV), which is not installed",
+    "stands in for no such card",
+    "(ANV), which is not installed",
+    "what stands in for Intel's cards is not built",
+];
 
 /// A GPU family's estimates for a sample's pipelines, one row per program; `None`, with a message, if that
 /// compiler is not installed.

@@ -160,7 +160,7 @@ impl RunHooks for Instruments {
         let mut compiled_for = Vec::new();
         if let Some(family) = self.options.compile_for.compile_for {
             compiled_for = compile_for::compile_for(family, &run.gpu.statistics().descs)?;
-            self.print(&compile_for::table(&compiled_for))?;
+            self.print(&compile_for::table(family, &compiled_for))?;
         }
         // Its buffer must be freed before the device.
         self.probe = None;

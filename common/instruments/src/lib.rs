@@ -7,6 +7,7 @@
 //! - [`compile_for`]: `--compile-for`, a GPU compiler's statistics for a sample's pipelines
 //! - [`arithmetic`]: `--arithmetic worst`, the worst-case rounding allowed by Vulkan
 //! - [`pixel`]: `--pixel`, the rays of one pixel as text
+//! - [`idle`]: devices that execute nothing
 //! - [`columns`](mod@columns): a table for a terminal
 //!
 //! They connect to the framework in two places. [`Instruments`] is a [`RunHooks`](common::app::RunHooks): it is
@@ -22,6 +23,7 @@ pub mod arithmetic;
 pub mod columns;
 pub mod compare;
 pub mod compile_for;
+pub mod idle;
 mod instruments;
 mod options;
 pub mod pixel;

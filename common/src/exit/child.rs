@@ -44,6 +44,18 @@ pub fn bind() {
     }
 }
 
+/// Limits the memory that this process may ask for from now on. A limit that cannot be set is already lower.
+pub fn bound_memory(bytes: u64) {
+    #[cfg(unix)]
+    {
+        let limit = libc::rlimit { rlim_cur: bytes, rlim_max: bytes };
+        // SAFETY: the limit is there for the length of the call.
+        unsafe { libc::setrlimit(libc::RLIMIT_AS, &raw const limit) };
+    }
+    #[cfg(not(unix))]
+    let _ = bytes;
+}
+
 #[cfg(unix)]
 fn is_late(status: ExitStatus) -> bool {
     use std::os::unix::process::ExitStatusExt;

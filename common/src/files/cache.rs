@@ -15,6 +15,11 @@ pub fn folder(kind: &str) -> Option<PathBuf> {
     ALL.as_ref().map(|all| all.join(kind))
 }
 
+/// The folder of a kind of cache that every copy of the book shares, such as `intel`.
+pub fn users_own(kind: &str) -> Option<PathBuf> {
+    Some(users(std::env::consts::OS, |name| std::env::var_os(name))?.join(kind))
+}
+
 /// The place of all caches for a program of the crate in the folder `home`. The book's copy in Cargo's checkouts
 /// has no `target/`, and none is created there.
 fn place(home: Option<&Path>, book: &Path, users: Option<PathBuf>) -> Option<PathBuf> {

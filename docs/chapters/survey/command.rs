@@ -59,7 +59,7 @@ impl Display for Idle {
         let Self { device, chapter } = self;
         write!(
             f,
-            "{device} executes nothing: {chapter} took no time and every pixel is zero; there is nothing to judge"
+            "{device} executes nothing: every pixel of {chapter} is zero; there is nothing to judge"
         )
     }
 }
@@ -241,6 +241,14 @@ impl Survey<'_> {
         }
     }
 
+    /// Returns whether a program finds that the device executes nothing: it says so if there are no rays to print.
+    fn is_idle(&self) -> bool {
+        let Some(chapter) = self.programs.project.chapters.last() else { return false };
+        let pixel = words(&["--headless", "--size", "8x8", "--pixel", "0,0"]);
+        self.ask(&chapter.name, &pixel)
+            .is_err_and(|error| told(&error).contains("executes nothing"))
+    }
+
     /// Runs a program to its end.
     ///
     /// # Errors
@@ -332,7 +340,7 @@ impl Survey<'_> {
         line.validation_messages = said["validation_messages"].as_array().map_or(0, Vec::len);
         result?;
         let shown = image::open(&picture).context("it has written no picture")?.to_rgb8();
-        if shown.iter().all(|channel| *channel == 0) && said["gpu_milliseconds"]["max"] == 0.0 {
+        if shown.iter().all(|channel| *channel == 0) && self.is_idle() {
             let device = said["device"].as_str().unwrap_or("this device").to_owned();
             bail!(Idle { device, chapter: chapter.name.clone() });
         }

@@ -27,7 +27,7 @@ pub fn values(project: &Project, stored: &Record) -> Option<Map<String, Value>> 
             _ => return None,
         }
     }
-    let (_, version) = stored.driver.split_once("Mesa ")?;
+    let (_, version) = stored.driver.rsplit_once("Mesa ")?;
     let version = version.split(['-', ' ']).next()?;
     let recorded: Value = serde_json::from_str(&project.read(FILE).ok()?).ok()?;
     let recorded = recorded[format!("Mesa {version}")][chapter][family?].as_object()?;

@@ -114,6 +114,10 @@ fn reported(report: &Value) -> Result<Record> {
         return Ok(measured(true, device, values));
     }
     let rows = report["compiled_for"].as_array().map_or(&[][..], Vec::as_slice);
+    // Not every machine has Intel's cards, so of `all` families only Radeons are stored.
+    let is_radeon = |row: &Value| row["registers"].is_u64();
+    let radeon: Vec<Value> = rows.iter().filter(|row| is_radeon(row)).cloned().collect();
+    let rows = if radeon.is_empty() { rows.to_vec() } else { radeon };
     if let Some(first) = rows.first() {
         let mut families: Vec<&str> =
             rows.iter().filter_map(|row| row["family"].as_str()).collect();
@@ -125,15 +129,27 @@ fn reported(report: &Value) -> Result<Record> {
                     .filter_map(move |row| row[key].as_u64())
             };
             let figures = [
-                ("programs", Some(each("registers").count() as u64)),
+                ("programs", Some(each("instructions").count() as u64)),
                 ("instructions", Some(each("instructions").sum())),
-                ("registers", each("registers").max()),
-                ("spilled_registers", Some(each("spilled_registers").sum())),
-                ("scratch_bytes", each("scratch_bytes").max()),
-                ("waves", each("waves").min()),
             ];
+            let own = if is_radeon(first) {
+                vec![
+                    ("registers", each("registers").max()),
+                    ("spilled_registers", Some(each("spilled_registers").sum())),
+                    ("scratch_bytes", each("scratch_bytes").max()),
+                    ("waves", each("waves").min()),
+                ]
+            } else {
+                vec![
+                    ("live_registers", each("live_registers").max()),
+                    ("spills", Some(each("spills").sum())),
+                    ("fills", Some(each("fills").sum())),
+                ]
+            };
+            let figures = [&figures[..], &own].concat();
             let prefix = if families.len() == 1 { String::new() } else { format!("{family}.") };
-            values.extend(figures.map(|(name, value)| (format!("{prefix}{name}"), json!(value))));
+            let all = figures.iter();
+            values.extend(all.map(|(name, value)| (format!("{prefix}{name}"), json!(value))));
             // For several programs also each one alone, in the compiler's order.
             let programs = rows.iter().filter(|row| row["family"] == **family);
             for (number, row) in (1..).zip(programs.filter(|_| figures[0].1 != Some(1))) {
@@ -147,12 +163,15 @@ fn reported(report: &Value) -> Result<Record> {
             "navi21" => "RDNA2",
             "navi31" => "RDNA3",
             "gfx1201" => "RDNA4",
+            "dg2" => "Arc A-series",
+            "bmg" => "Arc B-series",
             _ => "",
         };
         let generations: Vec<&str> = families.iter().map(generation).collect();
         let compiler = first["compiler"].as_str().unwrap_or_default();
         let driver = format!("{compiler}, {}", generations.join(", "));
-        return Ok(measured(false, ("RADV".to_owned(), driver), values));
+        let by = if is_radeon(first) { "RADV" } else { "ANV" };
+        return Ok(measured(false, (by.to_owned(), driver), values));
     }
     for (name, key) in [("ms", "gpu_milliseconds"), ("band", "band_milliseconds")] {
         for part in ["min", "median", "max"] {

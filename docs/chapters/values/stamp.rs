@@ -8,8 +8,8 @@ use manuscript::project::Project;
 use super::binding;
 use super::record::{self, Record};
 
-/// The device of values from a GPU's compiler that runs without the GPU.
-const COMPILER: &str = "RADV";
+/// The devices of values from a GPU's compiler that runs without the GPU.
+const COMPILERS: [&str; 2] = ["RADV", "ANV"];
 
 /// Returns whether a page has a stamp.
 pub fn is_on(page: &Page) -> bool {
@@ -30,16 +30,15 @@ pub fn text(project: &Project, page: &Page) -> String {
 /// A sentence for each device and driver.
 fn line<'a>(records: impl Iterator<Item = &'a Record>) -> String {
     let mut days = BTreeMap::<(bool, String), BTreeSet<&str>>::new();
-    let mut families = BTreeSet::new();
+    let mut families = BTreeMap::<&str, BTreeSet<&str>>::new();
     for Record { device, driver, date, .. } in records.filter(|known| known.device != record::HOST)
     {
-        let is_compiler = device == COMPILER;
+        let is_compiler = COMPILERS.contains(&&**device);
         let mut words = driver.split(", ");
         let version = version(words.next().unwrap_or_default());
-        families.extend(words.filter(|_| is_compiler));
+        families.entry(device).or_default().extend(words.filter(|_| is_compiler));
         days.entry((is_compiler, format!("{device}, {version}"))).or_default().insert(date);
     }
-    let families: Vec<&str> = families.into_iter().collect();
     let of = |((is_compiler, by), days): ((bool, String), BTreeSet<&str>)| {
         let first = days.first().copied().unwrap_or_default();
         let days = match days.last() {
@@ -47,6 +46,9 @@ fn line<'a>(records: impl Iterator<Item = &'a Record>) -> String {
             _ => first.to_owned(),
         };
         if is_compiler {
+            let device = by.split(',').next().unwrap_or_default();
+            let families = families.get(device).into_iter().flatten().copied();
+            let families: Vec<&str> = families.collect();
             format!("Estimated by the compiler of {by}, for {}, {days}.", families.join(", "))
         } else {
             format!("Measured on {by}, {days}.")
@@ -57,7 +59,7 @@ fn line<'a>(records: impl Iterator<Item = &'a Record>) -> String {
 
 /// A driver's version: Mesa 25.0.7 for `llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)`.
 fn version(driver: &str) -> String {
-    match driver.split_once("Mesa ") {
+    match driver.rsplit_once("Mesa ") {
         Some((_, rest)) => {
             let end = rest.find(['-', ' ', '~']).unwrap_or(rest.len());
             format!("Mesa {}", &rest[..end])
@@ -92,8 +94,14 @@ mod tests {
             cpu("2026-11-22"),
             radv("RDNA2"),
             radv("RDNA3"),
+            record(
+                "ANV",
+                "Intel open-source Mesa driver Mesa 25.0.7-2~bpo12+1, Arc A-series, Arc B-series",
+                "2026-11-29",
+            ),
         ];
         let expected = "Measured on llvmpipe, Mesa 25.0.7, 2026-11-22 to 2026-11-25. Estimated by the \
+                        compiler of ANV, Mesa 25.0.7, for Arc A-series, Arc B-series, 2026-11-29. Estimated by the \
                         compiler of RADV, Mesa 25.0.7, for RDNA2, RDNA3, 2026-11-22.";
         assert_eq!(line(records.iter()), expected);
         assert_eq!(

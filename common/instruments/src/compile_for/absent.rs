@@ -1,8 +1,9 @@
-//! A GPU's own compiler without the GPU: Mesa's RADV on an emulated card.
+//! A GPU's own compiler without the GPU: Mesa's RADV or ANV on an emulated card.
 //!
 //! Mesa's `drm-shim` replaces the kernel's driver: preloaded, it shows RADV a card of the family named by
-//! `AMDGPU_GPU_ID`, with all its features. Submitted work is never executed. Mesa before 26 has another way for
-//! compiling only: with `RADV_FORCE_FAMILY` RADV shows "Null hardware" of that family, without memory or images.
+//! `AMDGPU_GPU_ID`, or ANV one named by `INTEL_STUB_GPU_PLATFORM`, with all its features. Submitted work is never
+//! executed. Mesa before 26 has another way for compiling only: with `RADV_FORCE_FAMILY` RADV shows "Null hardware" of
+//! that family, without memory or images.
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
@@ -11,6 +12,8 @@ use serde::{Deserialize, Serialize};
 use common::gpu::{
     Executable, Gpu, GpuOptions, PipelineDesc, Requirements, TextureTable, Vulkan, device,
 };
+
+use super::family::Maker;
 
 /// The result from the driver of a card that is not installed.
 #[derive(Serialize, Deserialize)]
@@ -21,7 +24,7 @@ pub struct Answer {
     pub pipelines: Vec<Vec<Executable>>,
 }
 
-/// RADV's statistics for each pipeline, for a family by RADV's name; `None` if there is no such card.
+/// The compiler's statistics for each pipeline, for a family by Mesa's name; `None` if there is no such card.
 ///
 /// Call it in a separate process whose environment provides the card: it may crash, and may hide the installed
 /// cards. Mesa caches compiled pipelines with their statistics for the next time.
@@ -35,10 +38,9 @@ pub fn compile(
 ) -> Result<Option<Answer>> {
     let requirements = requirements.clone().compiler_figures_where_offered();
     let vulkan = Vulkan::new(None, None)?;
-    // Such as "AMD Radeon RX 7900 XTX (RADV NAVI31)", or "Null hardware (RADV NAVI31)".
-    let name = format!("(RADV {})", family.to_uppercase());
+    let maker = Maker::of(family);
     let mut found = device::candidates(&vulkan.instance, &requirements)?.into_iter();
-    let Some(card) = found.find(|candidate| candidate.name.ends_with(&name)) else {
+    let Some(card) = found.find(|candidate| maker.is(family, &candidate.name)) else {
         return Ok(None);
     };
     ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));

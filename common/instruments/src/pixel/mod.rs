@@ -18,6 +18,7 @@ use common::output;
 
 use self::log::{Log, WORDS};
 use self::stages::Stages;
+use crate::idle;
 
 /// The options of `--pixel`.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -153,6 +154,9 @@ impl Probe {
         if written > room {
             let _ =
                 writeln!(told, "the log is full: {written} words, and there is room for {WORDS}");
+        }
+        if written == 0 {
+            idle::refuse(gpu, "there are no rays to print")?;
         }
         let printing = known.iter().find(|known| known.prints);
         if let (Some(shader), true) = (printing, gpu.vulkan.messenger.is_none()) {
