@@ -6,7 +6,6 @@
 //! again, with `UPDATE=1 cargo test --test gpus`. Figures are compared with those of the same Mesa; for one
 //! without records the test only prints them. Mesa caches its results by shader and version, so only changes
 //! are compiled again.
-//! version: only what has changed is compiled again.
 
 use std::collections::BTreeMap;
 use std::fs;
