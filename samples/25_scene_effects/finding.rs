@@ -1,6 +1,7 @@
 //! Effects that a scene needs, found from the scene alone, with the reason.
 
 use common::gpu::ShaderEnum;
+use common::model::text::quoted;
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
@@ -37,13 +38,13 @@ pub fn needed(findings: &[Finding]) -> Effects {
 fn found(scene: &Composition, effect: Effect) -> Option<String> {
     let worn = |is: &dyn Fn(&Material) -> bool, what: &str| {
         let mut worn = scene.materials_in_use();
-        worn.find(|material| is(material)).map(|m| format!("material `{}` {what}", m.name))
+        worn.find(|material| is(material)).map(|m| format!("material {} {what}", quoted(&m.name)))
     };
     let finished = |is: &dyn Fn(&Finish) -> Option<String>| {
         let mut worn = scene.in_use().into_iter();
         worn.find_map(|number| {
-            let name = &scene.scene.model.materials[number].name;
-            is(&scene.finishes[number]).map(|what| format!("material `{name}` {what}"))
+            let name = quoted(&scene.scene.model.materials[number].name);
+            is(&scene.finishes[number]).map(|what| format!("material {name} {what}"))
         })
     };
     let light = |is: &dyn Fn(&SceneLight) -> bool, what: &str| {
@@ -91,7 +92,7 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Bounces => count(scene.bounces as usize, "bounce").map(|n| format!("{n} of light")),
         Glass => worn(&is_glass, "is glass"),
         Emitters if !scene.scatters() => None,
-        Emitters => scene.lamp().map(|m| format!("material `{}` shines", m.name)),
+        Emitters => scene.lamp().map(|m| format!("material {} shines", quoted(&m.name))),
         Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),
         Wireframe => finished(&|finish| (finish.lines > 0.0).then(|| "has lines".to_owned())),
         AntiAliasing => (scene.samples > 1).then(|| format!("{} rays per pixel", scene.samples)),

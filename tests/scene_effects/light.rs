@@ -208,7 +208,7 @@ fn what_shines_calls_for_shadow_rays_if_something_scatters_its_light() {
         none,
         "a box is met by chance"
     );
-    assert_eq!(needed(&format!("{BALL}{wall}")), (true, "material `lamp` shines".to_owned()));
+    assert_eq!(needed(&format!("{BALL}{wall}")), (true, "material \"lamp\" shines".to_owned()));
     let glass = wall.replace("[[box]]", "glass = \"thick\"\n[[box]]");
     assert_eq!(needed(&format!("{BALL}{glass}")), none, "glass scatters nothing");
 }

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 use ash::vk::{self, BufferUsageFlags as Usage};
-use common::gpu::{Buffer, Gpu};
+use common::gpu::{Buffer, Gpu, barrier};
 
 /// Bytes to fill. A driver may fill a few without the device's processors, and so even for a stand-in.
 const BYTES: u64 = 1 << 16;
@@ -19,6 +19,7 @@ pub fn refuse(gpu: &Gpu, why: &str) -> Result<()> {
     gpu.submit(|cmd| {
         // SAFETY: cmd is being recorded on this device, and the buffer outlives the submission, which is waited for.
         unsafe { gpu.device.cmd_fill_buffer(cmd, buffer.handle, 0, vk::WHOLE_SIZE, WORD) };
+        barrier::fill_to_trace(gpu, cmd);
         Ok(())
     })?;
     let is_filled = buffer.read::<u32>()?.last() == Some(&WORD);

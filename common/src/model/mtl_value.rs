@@ -126,9 +126,13 @@ impl Value<'_> {
     pub fn illumination(&mut self) -> Option<u32> {
         let word = words(self.rest).next().unwrap_or_default();
         let number = word.parse::<f32>().ok();
-        let number = number.filter(|number| number.fract() == 0.0 && (0.0..=10.0).contains(number));
+        if number == Some(10.0) {
+            self.leave_out("illum 10 is a surface of which only the shadows on it are seen");
+            return None;
+        }
+        let number = number.filter(|number| number.fract() == 0.0 && (0.0..=9.0).contains(number));
         if number.is_none() {
-            self.leave_out(&format!("illum {} is not a whole number from 0 to 10", quoted(word)));
+            self.leave_out(&format!("illum {} is not a whole number from 0 to 9", quoted(word)));
         }
         number.map(|number| number as u32)
     }

@@ -3,27 +3,31 @@
 use std::collections::BTreeSet;
 
 use super::{Material, Scene};
+use crate::model::text::quoted;
 
 /// A look of a material that only some chapters show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
     /// Its surroundings are reflected: [`Material::is_mirror`].
     Mirror,
-    /// Parts of it are not there, or let light through: [`Material::has_cutout`].
+    /// A texture says where it has holes.
     Holes,
+    /// Its opacity is below 1.
+    Transparency,
     /// Light passes through it: [`Material::is_glass`].
     Glass,
 }
 
 impl Look {
-    const ALL: [Self; 3] = [Self::Mirror, Self::Holes, Self::Glass];
+    const ALL: [Self; 4] = [Self::Mirror, Self::Holes, Self::Transparency, Self::Glass];
 
     /// True if a material needs this look. Glass reflects and may have an opacity, but counts as glass alone.
     fn is_of(self, material: &Material) -> bool {
         match self {
             Self::Glass => material.is_glass(),
             Self::Mirror => material.is_mirror() && !material.is_glass(),
-            Self::Holes => material.has_cutout() && !material.is_glass(),
+            Self::Holes => material.opacity_texture.is_some() && !material.is_glass(),
+            Self::Transparency => material.opacity < 1.0 && !material.is_glass(),
         }
     }
 
@@ -34,6 +38,9 @@ impl Look {
                 "is a mirror; this chapter shows its colour and highlight; 06_reflection shows it"
             }
             Self::Holes => "has holes; this chapter shows it whole; 03_any_hit shows them",
+            Self::Transparency => {
+                "is half transparent; this chapter shows it opaque; 25_scene_effects shows it"
+            }
             Self::Glass => "is glass; this chapter shows it solid; 25_scene_effects shows it",
         }
     }
@@ -78,12 +85,13 @@ mod tests {
         let materials = vec![
             material("matte", 2, 1.0),
             material("chrome", 3, 1.0),
-            material("leaf", 2, 0.5),
+            Material { opacity_texture: Some(0), ..material("leaf", 2, 1.0) },
+            material("veil", 2, 0.5),
             material("lens", 7, 0.5),
             material("silver", 5, 1.0),
             material("unused", 3, 0.5),
         ];
-        let used = [0, 4, 1, 2, 2, 3].map(|material| Instance {
+        let used = [0, 5, 1, 2, 2, 3, 4].map(|material| Instance {
             mesh: 0,
             transform: Affine3A::IDENTITY,
             material,
@@ -95,13 +103,14 @@ mod tests {
         let starts = [
             ("material \"chrome\" is a mirror; ", "(2 in all)"),
             ("material \"leaf\" has holes; ", "(1 in all)"),
+            ("material \"veil\" is half transparent; ", "(1 in all)"),
             ("material \"lens\" is glass; ", "(1 in all)"),
         ];
         assert_eq!(told.len(), starts.len(), "{told:?}");
         for (line, (start, end)) in told.iter().zip(starts) {
             assert!(line.starts_with(start) && line.ends_with(end), "{line}");
         }
-        let told = scene.looks_left_out(&[Look::Mirror, Look::Glass]);
+        let told = scene.looks_left_out(&[Look::Mirror, Look::Transparency, Look::Glass]);
         assert!(told.len() == 1 && told[0].contains("\"leaf\""), "{told:?}");
     }
 }

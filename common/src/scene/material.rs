@@ -17,7 +17,7 @@ pub struct Material {
     pub emission: Vec3,
     /// 1 is opaque, 0 is invisible (`d`, or else 1 - `Tr`).
     pub opacity: f32,
-    /// The number of the illumination model, 0 to 10 (`illum`).
+    /// The number of the illumination model, 0 to 9 (`illum`).
     pub illumination: u32,
     /// Index of refraction (`Ni`).
     pub refraction: f32,

@@ -51,9 +51,10 @@ fn preloaded(mut shim: OsString, before: Option<OsString>) -> OsString {
     shim
 }
 
-/// True if there are Intel's cards to compile for.
-pub fn has_intel() -> bool {
-    intel_shim().is_ok() && manifest("dg2").is_ok()
+/// The reason why there are no cards of Intel's to compile for; `None` if there are.
+pub fn why_no_intel() -> Option<String> {
+    let found = intel_shim().and_then(|_| manifest("dg2"));
+    found.err().map(|error| error.to_string())
 }
 
 /// The library that shows Intel's cards.

@@ -71,7 +71,7 @@ pub fn compile_for(family: Family, descs: &[Arc<PipelineDesc>]) -> Result<Vec<Co
 /// As [`compile_for`].
 pub fn programs(family: Family, descs: &[&PipelineDesc]) -> Result<Vec<Vec<CompiledFor>>> {
     let mut all = vec![Vec::new(); descs.len()];
-    for &family in family.names(card::has_intel()) {
+    for &family in family.names(card::why_no_intel().is_none()) {
         let question = serde_json::to_vec(&(family, descs))?;
         let answer =
             ask(family, &question).with_context(|| format!("cannot compile for {family}"))?;

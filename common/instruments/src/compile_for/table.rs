@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::card;
 use super::family::Family;
 use super::figures::{CompiledFor, Figures, Intel, Radeon};
 
@@ -45,7 +46,8 @@ pub fn table(family: Family, rows: &[CompiledFor]) -> String {
             "Of a shader that traces, this compiler counts only what precedes its first trace.\n";
     }
     if family == Family::All && intel.is_empty() {
-        text += "\ndg2 and bmg are left out: run tests/intel/build --install once to compile for Intel's GPUs.\n";
+        let why = card::why_no_intel().unwrap_or_default();
+        let _ = writeln!(text, "\ndg2 and bmg are left out: {why}");
     }
     text
 }

@@ -11,7 +11,7 @@ use gltf::json::validation::Checked;
 
 use super::features::Features;
 use super::image::{Images, Use};
-use super::name;
+use super::{name, range};
 use crate::model::text::quoted;
 use crate::scene::material::Material;
 
@@ -110,6 +110,7 @@ impl Look {
     ) -> Self {
         let name = name::of(source.name.as_ref(), "material", number);
         let place = || format!("material {number}, {},", quoted(&name));
+        range::check(source, features, &place());
         let values = Values::of(source, images, features);
         let color = values.color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
         let metallic = values.metallic.clamp(0.0, 1.0);

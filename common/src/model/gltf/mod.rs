@@ -20,6 +20,7 @@ mod name;
 mod nodes;
 mod pose;
 mod primitive;
+mod range;
 mod tally;
 mod uri;
 

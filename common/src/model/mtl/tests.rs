@@ -82,8 +82,9 @@ fn lines_that_are_wrong_are_ignored() {
     line_ignored("Tf 1 1", "Tf has 2 numbers; a colour has 3, or 1 for a grey");
     line_ignored("Ns", "Ns is not followed by a number");
     line_ignored("d -1.#IND", "d has \"-1.#IND\", which is not a finite 32-bit number");
-    line_ignored("illum 11", "illum \"11\" is not a whole number from 0 to 10");
-    line_ignored("illum", "illum \"\" is not a whole number from 0 to 10");
+    line_ignored("illum 11", "illum \"11\" is not a whole number from 0 to 9");
+    line_ignored("illum", "illum \"\" is not a whole number from 0 to 9");
+    line_ignored("illum 10", "illum 10 is a surface of which only the shadows on it are seen");
     let (_, warnings) = load_warned("Kd 1 1 1\nnewmtl a\n");
     let before = "Kd stands before the first newmtl; the line is ignored (1 in all)";
     assert_eq!(warnings, [format!("m.mtl:1: {before}")]);
