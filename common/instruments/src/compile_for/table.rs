@@ -99,9 +99,8 @@ mod tests {
         assert!(both.contains(line) && both.contains("for Intel GPUs, Mesa 25.0.7"), "{both}");
         assert!(!both.contains("left out"), "{both}");
         let one = table(Family::All, std::slice::from_ref(&radeon));
-        assert!(
-            one.ends_with("run tests/intel/build --install once to compile for Intel's GPUs.\n")
-        );
+        // The reason is this machine's.
+        assert!(one.contains("\ndg2 and bmg are left out: "), "{one}");
         assert!(!table(Family::Navi31, &[radeon]).contains("left out"));
     }
 }
