@@ -57,8 +57,8 @@ impl Scene {
             let with_look: Vec<_> = used.iter().filter(|material| look.is_of(material)).collect();
             let first = with_look.first()?;
             Some(format!(
-                "material {:?} {} ({} in all)",
-                first.name,
+                "material {} {} ({} in all)",
+                quoted(&first.name),
                 look.left_out(),
                 with_look.len()
             ))
