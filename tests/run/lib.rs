@@ -112,8 +112,8 @@ fn is_current(program: &Path, name: &str) -> bool {
     })
 }
 
-/// What a program printed as errors, except the lines about looks of a model that its chapter does not show, such
-/// as mirrors. Tests of errors check those.
+/// A program's standard error without the lines about looks of a model that its chapter does not show, such as
+/// mirrors. Tests of errors check those.
 fn without_looks(errors: &[u8]) -> String {
     let errors = String::from_utf8_lossy(errors);
     let is_look =

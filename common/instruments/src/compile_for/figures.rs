@@ -22,7 +22,7 @@ pub struct CompiledFor {
     pub stage: String,
     /// Machine instructions.
     pub instructions: u64,
-    /// What else this maker's compiler reports.
+    /// The other statistics of this maker's compiler.
     #[serde(flatten)]
     pub figures: Figures,
 }
