@@ -322,7 +322,17 @@ fn files_of_other_exporters() {
         ),
         ("3ds Max", MAX, MAX_MTL, &[]),
         ("MeshLab", MESHLAB, "", &["model.obj:13: v has a colour"]),
-        ("relative", RELATIVE, "", &["model.obj:25: \"call\" is not a keyword"]),
+        (
+            "relative",
+            RELATIVE,
+            "",
+            &[
+                "model.obj:18: l is a line, which no ray can hit",
+                "model.obj:19: p is a point, which no ray can hit",
+                "model.obj:22: curv is a curve, which no ray can hit",
+                "model.obj:25: \"call\" is not a keyword",
+            ],
+        ),
     ] {
         println!("{name}");
         let files = [("model.obj", obj.as_bytes()), ("model.mtl", mtl.as_bytes())];
