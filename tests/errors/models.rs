@@ -316,8 +316,8 @@ fn files_of_other_exporters() {
             BLENDER,
             BLENDER_MTL,
             &[
-                "model.mtl:13: Pr belongs to physically based",
                 "model.mtl:14: map_Bump is a map of bumps",
+                "model.obj: material \"Material.001\" has a metalness and a roughness",
             ][..],
         ),
         ("3ds Max", MAX, MAX_MTL, &[]),
