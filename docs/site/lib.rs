@@ -171,12 +171,15 @@ fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String
         // Before the first part mdBook accepts no lists, so the item comes last.
         let numbered = text.contains("\n# ");
         let item = format!("[{}]({}.md)", entry.title, entry.name);
-        let _ = if numbered { writeln!(text, "- {item}") } else { writeln!(text, "\n{item}") };
+        // Measurements are items of their chapter, as its code is.
+        let indent = if entry.is_apart() { "  " } else { "" };
+        let _ =
+            if numbered { writeln!(text, "{indent}- {item}") } else { writeln!(text, "\n{item}") };
         if codes.contains_key(&entry.name) {
             let (title, name) = (link::code_title(project, entry), link::code_name(entry));
             let item = format!("- [{title}]({name}.md)\n");
             if numbered {
-                let _ = write!(text, "  {item}");
+                let _ = write!(text, "{indent}  {item}");
             } else {
                 last.push_str(&item);
             }

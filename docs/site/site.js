@@ -45,9 +45,36 @@ contents.addEventListener("keydown", event => {
     }
 });
 
+// An option in the text would break behind its hyphens.
+for (const code of document.querySelectorAll("main :not(pre) > code")) {
+    if (/(^|\s)-/.test(code.textContent) && code.childElementCount === 0) {
+        code.replaceChildren(...code.textContent.split(/(\s+)/).map(word => {
+            if (!word.startsWith("-") || word.length > 30) {
+                return word;
+            }
+            const option = document.createElement("span");
+            option.className = "option";
+            option.textContent = word;
+            return option;
+        }));
+    }
+}
+
+// On a phone a drawing that fits would have labels too small to read.
+for (const drawing of document.querySelectorAll("main .picture > .drawing")) {
+    if (drawing.getAttribute("width") > 600 && !drawing.closest(".figure")) {
+        const box = document.createElement("span");
+        box.className = "wide";
+        drawing.parentElement.replaceWith(box);
+        box.append(drawing.parentElement);
+    }
+}
+
 // What is wider than its column scrolls. Its edges show on which side there is more, the Tab key reaches it,
 // and while it has the focus the arrow keys move it, not the pages.
-const kinds = [["main pre > code", "Code"], ["main .table-wrapper", "Table"], ["main .formula", "Formula"]];
+const kinds = [
+    ["main pre > code", "Code"], ["main .table-wrapper", "Table"], ["main .formula", "Formula"], ["main .wide", "Drawing"],
+];
 for (const [which, kind] of kinds) {
     for (const box of document.querySelectorAll(which)) {
         let frame = box.parentElement;
@@ -57,6 +84,9 @@ for (const [which, kind] of kinds) {
             frame.append(box);
         }
         frame.classList.add("scrolls");
+        if (kind === "Table" && box.scrollWidth > box.clientWidth) {
+            box.classList.add("roomy");
+        }
         const show = () => {
             const more = box.scrollWidth - box.clientWidth;
             frame.classList.toggle("before", more > 1 && box.scrollLeft > 1);
