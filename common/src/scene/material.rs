@@ -27,6 +27,23 @@ pub struct Material {
     pub base_texture: Option<usize>,
     /// The texture whose alpha multiplies `opacity`, by position in the model (`map_d`).
     pub opacity_texture: Option<usize>,
+    /// Its metalness and roughness, if the file has them (`Pm`, `Pr`).
+    pub microfacet: Option<Microfacet>,
+}
+
+/// A surface of microfacets by metalness and roughness, as in glTF 2.0, section 3.9.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Microfacet {
+    /// Linear RGB: what a metal reflects head-on, and what any other surface scatters. Multiplies the base texture.
+    pub color: Vec3,
+    /// 0 is smooth, 1 is rough: the square root of GGX's alpha.
+    pub roughness: f32,
+    /// 1 is metal, 0 is an insulator.
+    pub metallic: f32,
+    /// The texture whose green, linear, multiplies the roughness, by position in the model (`map_Pr`).
+    pub roughness_texture: Option<usize>,
+    /// The texture whose blue, linear, multiplies the metalness, by position in the model (`map_Pm`).
+    pub metallic_texture: Option<usize>,
 }
 
 impl Material {
@@ -61,6 +78,7 @@ impl Default for Material {
             transmission: Vec3::ONE,
             base_texture: None,
             opacity_texture: None,
+            microfacet: None,
         }
     }
 }

@@ -20,7 +20,7 @@ pub use camera::{Camera, CameraBasis};
 pub use chess::{assets, place_position};
 pub use light::{DirectionalLight, DiskLight, Light, LightKind, LightSource, PointLight, Sun};
 pub use look::Look;
-pub use material::Material;
+pub use material::{Material, Microfacet};
 pub use mesh::{Mesh, REACH, Vertex};
 pub use meshes::triangle_order;
 pub use placement::{Moved, Placement, Size};
