@@ -20,7 +20,7 @@ common::shader_struct! {
 pub const STEPS: usize = 32;
 
 /// Nodes across a half turn, and nodes from the middle of the cap of directions to its edge. A finer rule changes
-/// no entry by more than 0.0004 (a test of the chapter compares them).
+/// no entry by more than 0.0007 (a test of the chapter compares them).
 const NODES: [usize; 2] = [40, 16];
 
 /// Roughness of the first row: below it, the albedo depends on cosine / alpha alone.
@@ -30,7 +30,8 @@ const SMOOTHEST: f64 = 0.01;
 pub struct AlbedoTable {
     /// The columns of each row are even in cosine · (1 + alpha) / (cosine + alpha).
     pub albedos: Vec<Albedo>,
-    /// The mean of each row over all directions, weighted by their cosine.
+    /// The mean of each row over all directions, weighted by their cosine. What is lost is divided by alpha², so that
+    /// it changes little from row to row.
     pub means: Vec<Albedo>,
 }
 
@@ -45,7 +46,8 @@ impl AlbedoTable {
             let cosine = |column: usize| cosine_at(column as f64 / last, alpha);
             let entries: Vec<[f64; 2]> =
                 (0..STEPS).map(|column| rule.differences(alpha, cosine(column))).collect();
-            means.push(Albedo::from(mean(&entries, alpha)));
+            let [lost, more] = mean(&entries, alpha);
+            means.push(Albedo::from([lost / (alpha * alpha), more]));
             albedos.extend(entries.into_iter().map(Albedo::from));
         }
         Self { albedos, means }

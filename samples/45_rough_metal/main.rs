@@ -55,7 +55,7 @@ struct Demo {
 
 common::shader_enum! {
     /// The quantity shown per pixel.
-    enum Show: SHOW { Picture, Direct, Bounced, Rays }
+    enum Show: SHOW { Picture, Direct, Bounced, Rays, Facets }
     /// The way to choose a facet.
     enum Sampling: SAMPLING { Distribution, Visible, Bounded }
     /// The formula for the density of facets.

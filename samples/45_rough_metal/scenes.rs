@@ -33,8 +33,45 @@ pub struct Staged {
     pub sky: Sky,
 }
 
+/// The royals are in the fifth row.
+const POSITION: &str = "8/8/1p1n1p2/P7/1KqKqK2/8/8/8";
+
+/// The roughness of each royal, from left to right.
+const ROYALS: [f32; 5] = [0.05, 0.15, 0.3, 0.5, 0.8];
+
 /// The roughness of the spheres, from left to right.
 const ROUGHNESSES: [f32; 5] = [0.1, 0.325, 0.55, 0.775, 1.0];
+
+/// A row of kings and queens of metal, each rougher than the one before, and what they can mirror.
+pub fn chess() -> Result<Scene> {
+    let mut scene = Scene::chess()?;
+    let meshes = &scene.model.meshes;
+    scene.instances.retain(|instance| meshes[instance.mesh].name.starts_with("board"));
+    place_position(&scene.model, POSITION, &mut scene.instances)?;
+    let Model { meshes, materials, .. } = &mut scene.model;
+    // Reflectances as in `Scene::chess_of_metal`.
+    let (gold, silver) = (Vec3::new(1.0, 0.782, 0.344), Vec3::new(0.972, 0.96, 0.915));
+    let mut roughnesses = ROYALS.into_iter();
+    for instance in &mut scene.instances {
+        if matches!(meshes[instance.mesh].name.as_str(), "king" | "queen") {
+            let roughness = roughnesses.next().context("more royals than roughnesses")?;
+            let is_white = materials[instance.material].name == "white";
+            let (name, color) = if is_white { ("gold", gold) } else { ("silver", silver) };
+            instance.material = materials.len();
+            materials.push(microfacets(name, color, roughness, 1.0));
+        }
+    }
+    for material in materials.iter_mut().filter(|material| material.microfacet.is_none()) {
+        let (color, roughness) = match material.name.as_str() {
+            "black" => (Vec3::new(0.02, 0.13, 0.08), 0.3),
+            "white" => (material.base_color, 0.4),
+            _ => (material.base_color, 0.18),
+        };
+        *material = microfacets(&material.name, color, roughness, 0.0);
+    }
+    scene.camera = Camera::new(DVec3::new(-2.1, 1.75, 6.5), DVec3::new(-0.5, 0.68, 0.0), 31.5);
+    Ok(scene)
+}
 
 impl Staged {
     /// The scene of a name; `source` is that of chess.
@@ -42,7 +79,7 @@ impl Staged {
         let (metallic, sky) = match name {
             SceneName::Chess => {
                 let radiance = Vec3::new(4.4, 3.5, 2.4);
-                let sun = Sun { azimuth: 150.0, elevation: 24.0, radiance };
+                let sun = Sun { azimuth: 300.0, elevation: 35.0, radiance };
                 return Self { scene: source.clone(), sun, sky: Sky::Day };
             }
             SceneName::Spheres => (1.0, Sky::Black),
@@ -114,35 +151,3 @@ fn sphere(around: u32, down: u32) -> Mesh {
         material: 0,
     }
 }
-
-/// A few pieces on a board: a row of kings and queens of metal, each rougher than the one before.
-pub fn chess() -> Result<Scene> {
-    let mut scene = Scene::chess()?;
-    let meshes = &scene.model.meshes;
-    scene.instances.retain(|instance| meshes[instance.mesh].name.starts_with("board"));
-    place_position(&scene.model, POSITION, &mut scene.instances)?;
-    let Model { meshes, materials, .. } = &mut scene.model;
-    let (gold, silver) = (Vec3::new(1.0, 0.782, 0.344), Vec3::new(0.972, 0.96, 0.915));
-    let mut royals = ROYALS.into_iter();
-    for instance in &mut scene.instances {
-        if matches!(meshes[instance.mesh].name.as_str(), "king" | "queen") {
-            let roughness = royals.next().context("more royals than roughnesses")?;
-            let is_white = materials[instance.material].name == "white";
-            let (name, color) = if is_white { ("gold", gold) } else { ("silver", silver) };
-            instance.material = materials.len();
-            materials.push(microfacets(name, color, roughness, 1.0));
-        }
-    }
-    for material in materials.iter_mut().filter(|material| material.microfacet.is_none()) {
-        let roughness = if material.name.starts_with("board") { 0.2 } else { 0.35 };
-        *material = microfacets(&material.name, material.base_color, roughness, 0.0);
-    }
-    scene.camera = Camera::new(DVec3::new(-2.4, 2.3, 8.6), DVec3::new(0.0, 0.62, 0.0), 30.0);
-    Ok(scene)
-}
-
-/// The royals stand in a row; pawns watch.
-const POSITION: &str = "8/1p1p1p2/8/8/KqKqKqKq/8/8/8";
-
-/// The roughness of each, from the left.
-const ROYALS: [f32; 8] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8];

@@ -50,7 +50,9 @@ Albedo mean_albedo(float alpha, float roughness) {
     float at = float(ALBEDO_STEPS - 1) * roughness;
     Albedos means = push.rough.means;
     uint cell = min(uint(at), ALBEDO_STEPS - 2);
-    return between(means.at[cell], means.at[cell + 1], at - float(cell));
+    Albedo mean = between(means.at[cell], means.at[cell + 1], at - float(cell));
+    // The table has what is lost relative to alpha squared, which changes little from row to row.
+    return Albedo(mean.lost * alpha * alpha, mean.more);
 }
 
 // ANCHOR: again

@@ -63,6 +63,11 @@ vec3 facet_fresnel(vec3 head_on, vec3 view, vec3 facet) {
     return fresnel(head_on, clamp(dot(view, facet), 0.0, 1.0));
 }
 
+// The light that an insulator's polish lets pass; at a grazing angle rounding could make it negative.
+vec3 below_polish(Albedo albedo, float cosine) {
+    return max(1.0 - reflected(INSULATOR, albedo, cosine), 0.0);
+}
+
 // ANCHOR: surface
 // Metalness mixes a metal and an insulator, both of one colour (glTF 2.0, appendix B).
 struct Microfacets {
@@ -86,14 +91,13 @@ Microfacets microfacets(vec3 color, float roughness, float metallic, vec3 view) 
     surface.matte = (1.0 - metallic) * color;
     surface.metal = vec3(0.0);
     vec3 polish = fresnel(surface.head_on, surface.view.z);
-    vec3 rest = surface.matte * (1.0 - fresnel(INSULATOR, surface.view.z));
+    vec3 rest = surface.matte * max(1.0 - fresnel(INSULATOR, surface.view.z), 0.0);
     if (COMPENSATION) {
         surface.seen = albedo(surface.alpha, roughness, surface.view.z);
         surface.all = mean_albedo(surface.alpha, roughness);
         surface.metal = metallic * reflected_again(color, surface.all);
         polish = reflected(surface.head_on, surface.seen, surface.view.z);
-        rest = surface.metal * surface.seen.lost
-            + surface.matte * (1.0 - reflected(INSULATOR, surface.seen, surface.view.z));
+        rest = surface.metal * surface.seen.lost + surface.matte * below_polish(surface.seen, surface.view.z);
     }
     surface.polished = largest(polish) / max(largest(polish) + largest(rest), 1e-30);
     return surface;
@@ -107,12 +111,12 @@ vec3 rest_of(Microfacets surface, vec3 light) {
     if (!COMPENSATION) {
         // glTF 2.0, appendix B: light passes the polish once.
         vec3 facet = half_way(surface.view, light);
-        return surface.matte * (1.0 - facet_fresnel(INSULATOR, surface.view, facet));
+        return surface.matte * max(1.0 - facet_fresnel(INSULATOR, surface.view, facet), 0.0);
     }
     Albedo lit = albedo(surface.alpha, surface.roughness, light.z);
     vec3 metal = surface.metal * surface.seen.lost * lit.lost / max(surface.all.lost, 1e-30);
-    vec3 passed = (1.0 - reflected(INSULATOR, surface.seen, surface.view.z))
-        * (1.0 - reflected(INSULATOR, lit, light.z)) / (1.0 - mean_reflected(INSULATOR, surface.all));
+    vec3 passed = below_polish(surface.seen, surface.view.z) * below_polish(lit, light.z)
+        / (1.0 - mean_reflected(INSULATOR, surface.all));
     return metal + surface.matte * passed;
 }
 // ANCHOR_END: rest

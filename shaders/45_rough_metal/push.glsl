@@ -49,6 +49,7 @@ const uint SHOW_PICTURE = 0;
 const uint SHOW_DIRECT = 1;
 const uint SHOW_BOUNCED = 2;
 const uint SHOW_RAYS = 3;
+const uint SHOW_FACETS = 4;
 
 layout(constant_id = 1) const uint SKY = 0;
 const uint SKY_DAY = 0;
