@@ -34,7 +34,7 @@ pub struct Staged {
 }
 
 /// The royals are in the fifth row.
-const POSITION: &str = "8/8/1p1n1p2/P7/1KqKqK2/8/8/8";
+const POSITION: &str = "8/8/1p1n1p2/8/1KqKqK2/8/8/8";
 
 /// The roughness of each royal, from left to right.
 const ROYALS: [f32; 5] = [0.05, 0.15, 0.3, 0.5, 0.8];
@@ -64,7 +64,6 @@ pub fn chess() -> Result<Scene> {
     for material in materials.iter_mut().filter(|material| material.microfacet.is_none()) {
         let (color, roughness) = match material.name.as_str() {
             "black" => (Vec3::new(0.02, 0.13, 0.08), 0.3),
-            "white" => (material.base_color, 0.4),
             _ => (material.base_color, 0.18),
         };
         *material = microfacets(&material.name, color, roughness, 0.0);

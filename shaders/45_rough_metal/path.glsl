@@ -83,7 +83,6 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
         return;
     }
     MaterialRecord material = push.scene.materials.at[hit.material];
-    // ANCHOR: light
     // No ray of the path can hit the sun, so only this shadow ray finds it.
     RayOrigin start = shadow_start(hit);
     // Each path asks for the light at one point of the disk.
@@ -91,8 +90,7 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
     float visible = visible_part(disk, start, numbers(path, DIMENSION_LIGHT));
     vec3 to_light = towards_light(push.light, start.origin);
     vec3 arriving = visible * arriving_light(push.light, start.origin);
-    // ANCHOR_END: light
-    // ANCHOR: rough
+    // ANCHOR: light
     float choice = numbers(path, DIMENSION_CHOICE).x;
     vec2 u = numbers(path, DIMENSION_BOUNCE);
     if (rough.roughness >= 0.0) {
@@ -114,7 +112,7 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
     } else {
         scatter(path, ray, hit, material, to_light, arriving, choice, u);
     }
-    // ANCHOR_END: rough
+    // ANCHOR_END: light
     path.bounce++;
     ray.origin = hit.position + hit.offset * hit.face;
 }
