@@ -151,7 +151,8 @@ impl DirectionRule {
 
 /// The part of the visible facets that the light also sees: Smith's G2 / G1, with heights correlated.
 fn shown(alpha: f64, view: f64, light: f64) -> f64 {
-    let stretched = |cosine: f64| (cosine * cosine + alpha * alpha * (1.0 - cosine * cosine)).sqrt();
+    let stretched =
+        |cosine: f64| (cosine * cosine + alpha * alpha * (1.0 - cosine * cosine)).sqrt();
     light * (view + stretched(view)) / (light * stretched(view) + view * stretched(light))
 }
 

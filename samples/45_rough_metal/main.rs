@@ -15,9 +15,7 @@ use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     TextureTable, barrier,
 };
-use common::scene::{
-    Camera, CameraBasis, Light, Look, Scene, SceneAddresses, Sun, input_usage,
-};
+use common::scene::{Camera, CameraBasis, Light, Look, Scene, SceneAddresses, Sun, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;
 use rough_scene::{RoughAddresses, RoughScene};

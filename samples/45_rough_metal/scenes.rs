@@ -4,7 +4,9 @@ use std::f32::consts::PI;
 
 use anyhow::{Context, Result};
 use common::model::Model;
-use common::scene::{Camera, Instance, Material, Mesh, Microfacet, Scene, Sun, Vertex, place_position};
+use common::scene::{
+    Camera, Instance, Material, Mesh, Microfacet, Scene, Sun, Vertex, place_position,
+};
 use glam::{Affine3A, DVec3, Vec2, Vec3};
 
 common::shader_enum! {
@@ -94,13 +96,8 @@ impl Staged {
 }
 
 fn microfacets(name: &str, color: Vec3, roughness: f32, metallic: f32) -> Material {
-    let microfacet = Microfacet {
-        color,
-        roughness,
-        metallic,
-        roughness_texture: None,
-        metallic_texture: None,
-    };
+    let microfacet =
+        Microfacet { color, roughness, metallic, roughness_texture: None, metallic_texture: None };
     Material { name: name.to_owned(), microfacet: Some(microfacet), ..Material::default() }
 }
 
@@ -116,7 +113,11 @@ fn spheres(metallic: f32) -> Scene {
         record_offset: 0,
     };
     Scene {
-        model: Model { meshes: vec![sphere(128, 64)], materials: materials.into(), ..Model::default() },
+        model: Model {
+            meshes: vec![sphere(128, 64)],
+            materials: materials.into(),
+            ..Model::default()
+        },
         instances: (0..5).map(instance).collect(),
         camera: Camera::new(DVec3::new(0.0, 0.0, 14.0), DVec3::ZERO, 20.0),
     }

@@ -2,17 +2,15 @@
 
 #[path = "../../samples/45_rough_metal/albedo.rs"]
 mod albedo;
-mod furnace;
 mod functions;
+mod furnace;
 mod mitsuba;
 mod plots;
 mod twin;
 
 use common::app::Picture;
 
-use run::{
-    Chapter, command, copy_of_shaders, render_by, same_colors, set_arguments, shaders_with,
-};
+use run::{Chapter, command, copy_of_shaders, render_by, same_colors, set_arguments, shaders_with};
 
 const NAME: &str = "45_rough_metal";
 

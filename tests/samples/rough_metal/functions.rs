@@ -11,7 +11,11 @@ fn pairs_in_glsl(pairs: &[[Vec3; 2]]) -> String {
     let vector = |v: Vec3| format!("vec3({}, {}, {})", number(v.x), number(v.y), number(v.z));
     let list = |k: usize| pairs.iter().map(|pair| vector(pair[k])).collect::<Vec<_>>().join(",\n");
     let count = pairs.len();
-    format!("const vec3 VIEWS[{count}] = {{ {} }};\nconst vec3 LIGHTS[{count}] = {{ {} }};", list(0), list(1))
+    format!(
+        "const vec3 VIEWS[{count}] = {{ {} }};\nconst vec3 LIGHTS[{count}] = {{ {} }};",
+        list(0),
+        list(1)
+    )
 }
 
 /// The fractional part of a multiple of an irrational number: evenly spread and never the same.

@@ -206,6 +206,9 @@ fn white_spheres_vanish_under_a_white_sky() {
         // Each reflection may be off; fewer than half of the rays hit a sphere, and these fewer than three in a
         // row on average.
         let bound = 1.5 * bounds[1];
-        assert!((mean - 1.0).abs() < confidence + bound, "{scene}: {mean} ± {confidence} + {bound}");
+        assert!(
+            (mean - 1.0).abs() < confidence + bound,
+            "{scene}: {mean} ± {confidence} + {bound}"
+        );
     }
 }

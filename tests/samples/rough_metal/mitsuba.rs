@@ -23,9 +23,7 @@ fn pixels(picture: &Picture, area: &Value) -> Vec<f64> {
     let number = |name: &str| area[name].as_u64().expect("a whole number") as u32;
     let rows = number("first_row")..number("first_row") + number("rows");
     let columns = number("first_column")..number("first_column") + number("columns");
-    let at = |row: u32| {
-        columns.clone().map(move |column| (row * picture.width + column) as usize)
-    };
+    let at = |row: u32| columns.clone().map(move |column| (row * picture.width + column) as usize);
     rows.flat_map(at).map(|i| f64::from(picture.pixels[i][0])).collect()
 }
 
@@ -54,12 +52,17 @@ fn compare_white(separable: bool, stored_as: [&str; 2], depth: &str) {
         let number = |name: &str| expected[name].as_f64().expect("a number");
         let Estimate { mean, confidence } = Estimate::of(&pixels(&shown, &sphere["window"]));
         let (value, half_width) = (number("value"), number("half_width_999"));
-        println!("{stored_as:?} {i}: {mean:.5} ± {confidence:.5}, not {value:.5} ± {half_width:.5}?");
+        println!(
+            "{stored_as:?} {i}: {mean:.5} ± {confidence:.5}, not {value:.5} ± {half_width:.5}?"
+        );
         // Where almost no path is lost, some pixels' samples lose none and their scatter tells nothing: a pixel
         // loses at most all.
         let scatter = 4.0 * ((1.0 - value) / f64::from(400 * FRAMES)).sqrt();
         let allowed = confidence.max(scatter) + half_width;
-        assert!((mean - value).abs() < allowed, "{stored_as:?} {i}: {mean} ± {allowed}, not {value}");
+        assert!(
+            (mean - value).abs() < allowed,
+            "{stored_as:?} {i}: {mean} ± {allowed}, not {value}"
+        );
     }
 }
 
@@ -79,12 +82,16 @@ fn compare_light(separable: bool, stored_as: &str) {
         let window = pixels(&shown, &sphere["window"]);
         let mean = window.iter().sum::<f64>() / window.len() as f64;
         let value = light["window"][stored_as]["value"].as_f64().expect("a number");
-        println!("{stored_as} {i}: {mean:.5}, not {value:.5}? off by {:.5} of {allowed:.5}", mean / value - 1.0);
+        println!(
+            "{stored_as} {i}: {mean:.5}, not {value:.5}? off by {:.5} of {allowed:.5}",
+            mean / value - 1.0
+        );
         assert!((mean / value - 1.0).abs() < allowed, "{stored_as} {i}: {mean}, not {value}");
         let row = light["row"][stored_as]["value"].as_array().expect("a list");
-        let offs = pixels(&shown, &sphere["row"]).into_iter().zip(row).map(|(shown, value)| {
-            (shown / value.as_f64().expect("a number") - 1.0).abs()
-        });
+        let offs = pixels(&shown, &sphere["row"])
+            .into_iter()
+            .zip(row)
+            .map(|(shown, value)| (shown / value.as_f64().expect("a number") - 1.0).abs());
         let most = offs.fold(0.0, f64::max);
         println!("  row: off by up to {most:.5}");
         assert!(most < 4.0 * allowed, "{stored_as} {i}: a pixel of the row is off by {most}");

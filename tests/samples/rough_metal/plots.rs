@@ -41,7 +41,10 @@ fn bounces(sets: &[&str]) -> Vec<[f64; 3]> {
 fn energy() {
     let table = AlbedoTable::new();
     let last = (table.means.len() - 1) as f64;
-    let theory: Vec<[f64; 2]> = table.means.iter().enumerate()
+    let theory: Vec<[f64; 2]> = table
+        .means
+        .iter()
+        .enumerate()
         .map(|(row, mean)| (row as f64 / last, mean.lost))
         .map(|(roughness, lost)| [roughness, 1.0 - f64::from(lost) * roughness.powi(4)])
         .collect();
@@ -51,13 +54,27 @@ fn energy() {
     };
     let series = vec![
         Series { name: "one reflection, f64", points: theory, line: true, ..Series::default() },
-        Series { name: "one reflection, rendered", points: dots("off"), dots: true, ..Series::default() },
-        Series { name: "with compensation, rendered", points: dots("on"), dots: true, ..Series::default() },
+        Series {
+            name: "one reflection, rendered",
+            points: dots("off"),
+            dots: true,
+            ..Series::default()
+        },
+        Series {
+            name: "with compensation, rendered",
+            points: dots("on"),
+            dots: true,
+            ..Series::default()
+        },
     ];
     let tenths: Vec<f64> = (0..=5).map(|i| f64::from(i) / 5.0).collect();
     let x = Axis { label: "roughness", ticks: &tenths, logarithmic: false };
     let y = Axis { label: "light that leaves", ticks: &tenths, logarithmic: false };
-    draw("45_energy.svg", (560, 360), &[Chart { title: "white metal under a white sky", x, y, series }]);
+    draw(
+        "45_energy.svg",
+        (560, 360),
+        &[Chart { title: "white metal under a white sky", x, y, series }],
+    );
 }
 
 #[test]
@@ -68,7 +85,9 @@ fn variance() {
         let rows = bounces(&[&format!("sampling={sampling}"), "compensation=off"]);
         for row in [1, 3, 5, 7, 10] {
             let [mean, variance, lost] = rows[row];
-            println!("{sampling}, roughness 0.{row}: {mean:.4}, variance {variance:.5}, lost {lost:.4}");
+            println!(
+                "{sampling}, roughness 0.{row}: {mean:.4}, variance {variance:.5}, lost {lost:.4}"
+            );
             held.insert(format!("{sampling}.{row}.deviation"), variance.max(0.0).sqrt().into());
             held.insert(format!("{sampling}.{row}.lost"), lost.into());
         }
