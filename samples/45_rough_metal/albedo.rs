@@ -30,7 +30,7 @@ const SMOOTHEST: f64 = 0.01;
 pub struct AlbedoTable {
     /// The columns of each row are even in cosine · (1 + alpha) / (cosine + alpha).
     pub albedos: Vec<Albedo>,
-    /// The mean of each row over all directions, weighted by their cosine. What is lost is divided by alpha², so that
+    /// The mean of each row over all directions, weighted by their cosine. What is lost is divided by alpha, so that
     /// it changes little from row to row.
     pub means: Vec<Albedo>,
 }
@@ -47,7 +47,7 @@ impl AlbedoTable {
             let entries: Vec<[f64; 2]> =
                 (0..STEPS).map(|column| rule.differences(alpha, cosine(column))).collect();
             let [lost, more] = mean(&entries, alpha);
-            means.push(Albedo::from([lost / (alpha * alpha), more]));
+            means.push(Albedo::from([lost / alpha, more]));
             albedos.extend(entries.into_iter().map(Albedo::from));
         }
         Self { albedos, means }

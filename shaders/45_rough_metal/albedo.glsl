@@ -51,8 +51,8 @@ Albedo mean_albedo(float alpha, float roughness) {
     Albedos means = push.rough.means;
     uint cell = min(uint(at), ALBEDO_STEPS - 2);
     Albedo mean = between(means.at[cell], means.at[cell + 1], at - float(cell));
-    // The table has what is lost relative to alpha squared, which changes little from row to row.
-    return Albedo(mean.lost * alpha * alpha, mean.more);
+    // The table has what is lost relative to alpha, which changes little from row to row.
+    return Albedo(mean.lost * alpha, mean.more);
 }
 
 // ANCHOR: again

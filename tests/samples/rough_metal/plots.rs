@@ -46,7 +46,7 @@ fn energy() {
         .iter()
         .enumerate()
         .map(|(row, mean)| (row as f64 / last, mean.lost))
-        .map(|(roughness, lost)| [roughness, 1.0 - f64::from(lost) * roughness.powi(4)])
+        .map(|(roughness, lost)| [roughness, 1.0 - f64::from(lost) * roughness.powi(2)])
         .collect();
     let dots = |compensation: &str| {
         let rows = bounces(&[&format!("compensation={compensation}")]);
