@@ -161,8 +161,7 @@ vec3 visible_facet(float alpha, vec3 view, float bound, vec2 u) {
     return normalize(vec3(alpha * facet.xy, max(facet.z, 1e-6)));
 }
 
-// How much of the cap is needed: no facet mirrors the view above the surface that lies beyond (Eto and Tokuyoshi
-// 2023).
+// How far down the cap has to reach: every facet beyond mirrors the view into the surface (Eto and Tokuyoshi 2023).
 float bound_of(float alpha, vec3 view) {
     float s = 1.0 + length(view.xy);
     return (1.0 - alpha * alpha) * s * s / (s * s + alpha * alpha * view.z * view.z);
