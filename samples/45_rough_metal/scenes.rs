@@ -139,10 +139,12 @@ fn sphere(around: u32, down: u32) -> Mesh {
         [[a, c, c + 1], [a, c + 1, a + 1]]
     };
     let triangles = (0..around * down).flat_map(quad);
-    // At a pole one corner of each quad is the other.
+    // At a pole two corners of each quad are one point.
     let triangles = triangles.filter(|t| {
-        let is_pole = |row: u32, i: u32| i / (around + 1) == row;
-        !(is_pole(0, t[0]) && is_pole(0, t[2])) && !(is_pole(down, t[1]) && is_pole(down, t[2]))
+        let is_in = |row: u32, i: u32| i / (around + 1) == row;
+        let has_no_area =
+            is_in(0, t[0]) && is_in(0, t[2]) || is_in(down, t[1]) && is_in(down, t[2]);
+        !has_no_area
     });
     Mesh {
         name: "sphere".to_owned(),

@@ -13,7 +13,7 @@ const SPHERES: usize = 5;
 const FRAMES: u32 = 32;
 
 fn stored() -> Value {
-    let file = root().join("tests/data/rough_metal/mitsuba.json");
+    let file = root().join("tests/data/rough_metal/five_spheres.json");
     serde_json::from_str(&std::fs::read_to_string(file).expect("the values can be read"))
         .expect("the values are JSON")
 }
