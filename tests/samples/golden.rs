@@ -55,6 +55,7 @@ golden! {
     ray_query,
     ray_query_raster,
     reflection,
+    rough_metal,
     sequences,
     shadow_miss,
     soft_shadows,

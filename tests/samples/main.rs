@@ -38,6 +38,7 @@ mod ray_offset;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;
+mod rough_metal;
 mod sequences;
 mod settings;
 mod shadow_miss;

@@ -54,7 +54,7 @@ fn pictures_are_finite_and_near(arithmetic: &str, wanted: impl Fn(&str) -> bool)
         assert_ne!(bits(&driver), bits(&worst), "{name}: nothing was rewritten");
         let is_near = match number(&name) {
             // About four bounces between pieces; or twenty walls of glass, most of them round.
-            11 | 29 => paths_are_the_same(&name, 5.0, &driver, &worst),
+            11 | 29 | 45 => paths_are_the_same(&name, 5.0, &driver, &worst),
             27 => paths_are_the_same(&name, 20.0, &driver, &worst),
             _ => Near::of(&name).holds(&driver, &worst),
         };
