@@ -9,6 +9,7 @@ mod plots;
 mod twin;
 
 use common::app::Picture;
+use tempfile::TempDir;
 
 use run::{Chapter, command, copy_of_shaders, render_by, same_colors, set_arguments, shaders_with};
 
@@ -21,7 +22,17 @@ fn chapter(size: &str) -> Chapter {
 /// The results of this chapter's functions, one per pixel: `body` reads the pixel from `uvec2 at` and sets `vec4
 /// answer`; `declarations` come before it.
 fn evaluate(declarations: &str, body: &str, size: &str, arguments: &[&str]) -> Picture {
-    let folder = copy_of_shaders();
+    evaluate_in(&copy_of_shaders(), declarations, body, size, arguments)
+}
+
+/// The same with a copy of the shaders that a test has changed.
+fn evaluate_in(
+    folder: &TempDir,
+    declarations: &str,
+    body: &str,
+    size: &str,
+    arguments: &[&str],
+) -> Picture {
     let file = folder.path().join(NAME).join("camera.rgen");
     let text = std::fs::read_to_string(&file).expect("it is there");
     let (head, _) = text.split_once("// One path per pixel").expect("a comment above main");

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{evaluate, set, twin};
-use run::expected;
+use super::{evaluate, evaluate_in, set, twin};
+use run::{copy_of_shaders, expected, replace_line};
 
 /// Pairs of view and light, unit vectors above a surface, as constants of a shader.
 fn pairs_in_glsl(pairs: &[[Vec3; 2]]) -> String {
@@ -176,4 +176,28 @@ fn nothing_is_negative_or_no_number() {
             }
         }
     }
+}
+
+#[test]
+fn no_facet_by_chance_has_an_angle_beyond_pi() {
+    // Beyond it, Vulkan promises nothing about sin() and cos(): these macros record the largest of their angles.
+    let noting = "float widest = 0.0;
+        float noted(float angle) { widest = max(widest, abs(angle)); return angle; }
+        #define cos(angle) cos(noted(angle))
+        #define sin(angle) sin(noted(angle))
+        #include \"microfacet.glsl\"";
+    let folder = copy_of_shaders();
+    let file = "45_rough_metal/camera.rgen";
+    replace_line(folder.path(), file, "#include \"microfacet.glsl\"", noting);
+    // The numbers that complete a turn, and some between.
+    let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;
+        vec2 numbers = vec2(float(at.x) / 64.0, u);
+        vec3 view = vec3(0.8, 0.0, 0.6);
+        vec3 facet = at.x % 2 == 0 ? random_facet(0.5, numbers) : visible_facet(0.5, view, 1.0, numbers);
+        answer = vec4(widest, facet);";
+    let shown = evaluate_in(&folder, "", body, "64x128", &[]);
+    let widest = shown.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
+    println!("widest angle: {widest}");
+    assert!(widest > 3.0 && widest <= std::f64::consts::PI, "{widest}");
+    assert!(shown.pixels.iter().all(|[_, _, _, z]| *z > 0.0));
 }

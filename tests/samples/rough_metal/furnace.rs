@@ -1,5 +1,7 @@
 //! White furnaces: all that arrives must leave.
 
+use std::sync::LazyLock;
+
 use serde_json::Map;
 
 use super::albedo::{Albedo, AlbedoTable, DirectionRule, STEPS};
@@ -115,11 +117,11 @@ fn mean_errors() -> [f64; 2] {
 ///
 /// What facets reflect is sampled; what the table adds is off by the table's error: for metal that of the loss, for
 /// an insulator those of both entries, weighted by 0.04 and 0.96. The means add their own.
-fn bounds() -> [f64; 2] {
+static BOUNDS: LazyLock<[f64; 2]> = LazyLock::new(|| {
     let ([lost, more], [metal, base]) = (table_errors(), mean_errors());
     println!("the table is off by {lost:.4} and {more:.4}, means by {metal:.4} and {base:.4}");
     [0.04 * lost + 0.96 * more + base, lost + metal]
-}
+});
 
 #[test]
 fn the_table_is_the_integral() {
@@ -150,10 +152,9 @@ fn the_table_is_the_integral() {
 
 #[test]
 fn with_compensation_a_furnace_is_white() {
-    let bounds = bounds();
     let mut held = Map::new();
     for (metallic, name) in [(1, "metal"), (0, "insulator")] {
-        let bound = bounds[metallic as usize];
+        let bound = BOUNDS[metallic as usize];
         let mut most = 0f64;
         for (i, Estimate { mean, confidence }) in furnace(metallic, &[]).iter().enumerate() {
             let (row, column) = (i / COLUMNS, i % COLUMNS);
@@ -199,7 +200,6 @@ fn without_compensation_it_is_the_albedo() {
 /// The whole program: the spheres also light each other.
 #[test]
 fn white_spheres_vanish_under_a_white_sky() {
-    let bounds = bounds();
     for scene in ["furnace", "insulator furnace"] {
         let sets = [&format!("scene={scene}"), "depth=256", "roulette=off"];
         let values = brightness(&chapter("120x40").frames(16).sets(&sets).picture());
@@ -207,7 +207,7 @@ fn white_spheres_vanish_under_a_white_sky() {
         println!("{scene}: {mean:.5} ± {confidence:.5}");
         // Each reflection may be off; fewer than half of the rays hit a sphere, and these fewer than three in a
         // row on average.
-        let bound = 1.5 * bounds[1];
+        let bound = 1.5 * BOUNDS[1];
         assert!(
             (mean - 1.0).abs() < confidence + bound,
             "{scene}: {mean} ± {confidence} + {bound}"

@@ -10,7 +10,7 @@ use super::{Estimate, chapter};
 use run::{root, shaders_with};
 
 const SPHERES: usize = 5;
-const FRAMES: u32 = 32;
+const FRAMES: u32 = 16;
 
 fn stored() -> Value {
     let file = root().join("tests/data/rough_metal/five_spheres.json");
@@ -70,13 +70,13 @@ fn compare_white(separable: bool, stored_as: [&str; 2], depth: &str) {
 fn compare_light(separable: bool, stored_as: &str) {
     let shown = picture(separable, &["scene=spheres", "depth=0"]);
     let stored = stored();
-    // The highlight of the first sphere is narrower than a pixel, and 32 points find too little of it.
+    // The highlight of the first sphere is narrower than a pixel, and 16 points find too little of it.
     for i in 1..SPHERES {
         let sphere = &stored["spheres"][i];
         let alpha = sphere["alpha"].as_f64().expect("a number");
         // The sphere has 128 sides: its surface lies up to (pi / 128)^2 / 2 = 0.0003 below the true one, and the
         // normals point as much elsewhere. That is this part of a highlight's width, on whose slope D changes by
-        // twice as much; and 32 points of a pixel are its mean to within a few parts in a thousand.
+        // twice as much; and 16 points of a pixel are its mean to within a few parts in a thousand.
         let allowed = 2.0 * 0.0003 / alpha + 0.004;
         let light = &sphere["light"];
         let window = pixels(&shown, &sphere["window"]);
@@ -104,7 +104,7 @@ fn one_bounce_is_mitsubas() {
 }
 
 #[test]
-#[ignore = "nightly: two million paths; quick: rough_metal::mitsuba::one_bounce_is_mitsubas"]
+#[ignore = "nightly: half a million paths; quick: rough_metal::mitsuba::one_bounce_is_mitsubas"]
 fn spheres_light_each_other_as_in_f64() {
     compare_white(false, ["all_bounces", "height_correlated"], "depth=256");
 }
@@ -115,7 +115,7 @@ fn a_highlight_is_mitsubas() {
 }
 
 #[test]
-#[ignore = "nightly: two million paths; quick: rough_metal::mitsuba::a_highlight_is_mitsubas"]
+#[ignore = "nightly: half a million paths; quick: rough_metal::mitsuba::a_highlight_is_mitsubas"]
 fn with_correlated_heights_it_is_that_of_f64() {
     compare_light(false, "height_correlated");
 }
