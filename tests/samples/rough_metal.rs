@@ -5,6 +5,7 @@ mod albedo;
 mod functions;
 mod furnace;
 mod mitsuba;
+mod models;
 mod plots;
 mod twin;
 
