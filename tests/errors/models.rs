@@ -52,7 +52,7 @@ fn a_gltf_file_is_shown_or_refused() {
     assert_eq!((code, said.lines().count()), (Some(0), 3), "{said}");
     for line in [
         "has lights; this chapter has its own; 25_scene_effects shows them (2 in all)",
-        "has a metalness and a roughness; this chapter approximates them; 45_rough_metal shows them",
+        "has a metalness and a roughness; this chapter shows a colour, a highlight or a mirror instead; 45_rough_metal shows them",
         "material \"fretwork\" has holes; this chapter shows it whole; 03_any_hit shows them (1 in all)",
     ] {
         assert!(said.contains(line), "{said}");

@@ -100,8 +100,7 @@ pub(crate) fn load_within(path: &Path, limits: &Limits, place: Place) -> Result<
         materials.push(Material::default());
     }
     for (part, &material) in geometry.parts.iter().zip(&numbers) {
-        let Material { base_texture, opacity_texture, .. } = materials[material];
-        let is_textured = base_texture.or(opacity_texture).is_some();
+        let is_textured = materials[material].textures().any(|texture| texture.is_some());
         if let Some(Some(place)) = texture_places.get(material)
             && is_textured
             && !part.has_coordinates()

@@ -205,7 +205,6 @@ impl MaterialLibrary {
             "Pm" => {
                 if let Some(metallic) = value.number(0.0, 1.0) {
                     material.microfacet.get_or_insert_default().metallic = metallic;
-                    places.has_metalness = true;
                 }
             }
             "illum" => {
@@ -217,34 +216,26 @@ impl MaterialLibrary {
             }
             _ => {
                 let named = after_options(rest, &mut |what: &str| value.pass_over(what));
+                let role = match keyword {
+                    "map_Kd" => Role::Color,
+                    "map_d" => Role::Opacity,
+                    _ => Role::Numbers,
+                };
                 let image = match folder.find(keyword, named, Some(file)) {
                     Ok(image) => image,
                     Err(error) => {
-                        value.warnings.add(Kind::Texture, statement, || error);
+                        value.warnings.add(role.missing(), statement, || error);
                         return Ok(());
                     }
                 };
                 if let Some(instead) = &image.instead {
                     value.warnings.add(Kind::Elsewhere, statement, || instead);
                 }
-                let (slot, role) = match keyword {
-                    "map_Kd" => (&mut material.base_texture, Role::Color),
-                    "map_d" => (&mut material.opacity_texture, Role::Opacity),
-                    "map_Pr" => {
-                        places.has_roughness = true;
-                        (
-                            &mut material.microfacet.get_or_insert_default().roughness_texture,
-                            Role::Numbers,
-                        )
-                    }
-                    _ => {
-                        let microfacet = material.microfacet.get_or_insert_default();
-                        // Alone it says all; after a Pm it multiplies that.
-                        if !places.has_metalness {
-                            microfacet.metallic = 1.0;
-                        }
-                        (&mut microfacet.metallic_texture, Role::Numbers)
-                    }
+                let slot = match keyword {
+                    "map_Kd" => &mut material.base_texture,
+                    "map_d" => &mut material.opacity_texture,
+                    "map_Pr" => &mut material.microfacet.get_or_insert_default().roughness_texture,
+                    _ => &mut material.microfacet.get_or_insert_default().metallic_texture,
                 };
                 *slot = Some(self.textures.add(image, role, statement.place()));
                 places.texture = Some(format!("{}: {keyword}", statement.place()));

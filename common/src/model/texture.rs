@@ -81,17 +81,25 @@ struct TextureFile {
     place: String,
     color: bool,
     opacity: bool,
+    numbers: bool,
+}
+
+impl Role {
+    /// The kind of warning if there is no such texture.
+    pub fn missing(self) -> warnings::Kind {
+        if self == Self::Numbers { warnings::Kind::Numbers } else { warnings::Kind::Texture }
+    }
 }
 
 impl TextureFiles {
     /// Records a file and returns the position that its texture will have.
     pub fn add(&mut self, named: Named, role: Role, place: String) -> usize {
         let files = &mut self.files;
-        let index =
-            *self.indices.entry((named.path.clone(), role == Role::Numbers)).or_insert_with(|| {
-                files.push(TextureFile { named, place, color: false, opacity: false });
-                files.len() - 1
-            });
+        let numbers = role == Role::Numbers;
+        let index = *self.indices.entry((named.path.clone(), numbers)).or_insert_with(|| {
+            files.push(TextureFile { named, place, color: false, opacity: false, numbers });
+            files.len() - 1
+        });
         match role {
             Role::Color => files[index].color = true,
             Role::Opacity => files[index].opacity = true,
@@ -111,6 +119,7 @@ impl TextureFiles {
         let mut textures = Vec::new();
         let decode = |file: TextureFile| {
             let (place, shown) = (file.place.clone(), file.named.shown.clone());
+            let role = if file.numbers { Role::Numbers } else { Role::Color };
             match file.decode(&mut left, limits) {
                 Ok((texture, remarks)) => {
                     for (kind, what) in remarks {
@@ -122,7 +131,7 @@ impl TextureFiles {
                 }
                 Err(error) => {
                     let first = || format!("{place}: the texture {error}");
-                    warnings.add_many(warnings::Kind::Texture, 1, first);
+                    warnings.add_many(role.missing(), 1, first);
                     None
                 }
             }
@@ -209,7 +218,11 @@ pub(crate) fn decode_file(
     left: &mut u64,
     limits: &Limits,
 ) -> Result<(Texture, Vec<Remark>)> {
-    TextureFile { named, place: String::new(), color: true, opacity: false }.decode(left, limits)
+    of_color(named).decode(left, limits)
+}
+
+fn of_color(named: Named) -> TextureFile {
+    TextureFile { named, place: String::new(), color: true, opacity: false, numbers: false }
 }
 
 /// Decodes an image within another file, as [`decode_file`] does.
@@ -223,8 +236,7 @@ pub(crate) fn decode_bytes(
     limits: &Limits,
 ) -> Result<(Texture, Vec<Remark>)> {
     let named = Named { name, ..Named::default() };
-    let file = TextureFile { named, place: String::new(), color: true, opacity: false };
-    file.decode_from(Cursor::new(bytes), left, limits)
+    of_color(named).decode_from(Cursor::new(bytes), left, limits)
 }
 
 /// Checks the sides of an image.

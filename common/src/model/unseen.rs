@@ -16,10 +16,8 @@ pub(crate) struct Places {
     pub glass: Option<String>,
     /// The last statement of a texture, with its keyword.
     pub texture: Option<String>,
-    /// True if `Pr` or `map_Pr` says how rough it is.
+    /// True if `Pr` says how rough it is.
     pub has_roughness: bool,
-    /// True if `Pm` says how much of it is metal.
-    pub has_metalness: bool,
 }
 
 impl Places {
@@ -70,6 +68,13 @@ impl Places {
             microfacet.color = material.base_color;
             if !has_roughness {
                 microfacet.roughness = roughness(material.shininess);
+            }
+            // A texture replaces the number, because exporters write both.
+            if microfacet.roughness_texture.is_some() {
+                microfacet.roughness = 1.0;
+            }
+            if microfacet.metallic_texture.is_some() {
+                microfacet.metallic = 1.0;
             }
         }
     }

@@ -15,6 +15,8 @@ pub(crate) enum Kind {
     Material,
     /// A texture that is missing, outside the model's folder, or not a picture.
     Texture,
+    /// A texture of numbers that is missing, outside the model's folder, or not a picture.
+    Numbers,
     /// A texture on faces without texture coordinates.
     Untextured,
     /// A file of the name beside the model, but not where the name leads.
@@ -61,10 +63,11 @@ impl Kind {
             Self::Definition => Some("the first definition stands"),
             Self::Material => Some("a grey stands for it"),
             Self::Texture => Some("the plain colour stands for it"),
+            Self::Numbers => Some("the material's number alone counts"),
             Self::Elsewhere => Some("the file of that name beside the model is taken"),
             Self::Cut => Some("what there is of it is shown"),
             Self::Turned => Some("it is turned, as viewers of photographs do"),
-            Self::Untextured => Some("one texel colours the whole face"),
+            Self::Untextured => Some("one texel counts for the whole face"),
             Self::Option => Some("it is ignored"),
             Self::Position => Some("the faces that use it are left out"),
             Self::Coordinate => Some("the corner has none"),

@@ -54,7 +54,7 @@ impl Look {
             }
             Self::Glass => "is glass; this chapter shows it solid; 25_scene_effects shows it",
             Self::Microfacet => {
-                "has a metalness and a roughness; this chapter approximates them; 45_rough_metal shows them"
+                "has a metalness and a roughness; this chapter shows a colour, a highlight or a mirror instead; 45_rough_metal shows them"
             }
         }
     }
@@ -190,8 +190,8 @@ mod tests {
         assert_eq!(shown.model.materials[0].microfacet, Some(rough));
         let mut without = scene.clone();
         without.show_only(&[], "a.obj");
-        let line = "a.obj: material \"chrome\" has a metalness and a roughness; this chapter approximates them; \
-                    45_rough_metal shows them (1 in all)";
+        let line = "a.obj: material \"chrome\" has a metalness and a roughness; this chapter shows a colour, a \
+                    highlight or a mirror instead; 45_rough_metal shows them (1 in all)";
         assert_eq!(without.model.warnings, [line]);
         let sizes: Vec<_> =
             without.model.textures.iter().map(|texture| texture.rgba.len()).collect();

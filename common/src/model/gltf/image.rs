@@ -85,7 +85,8 @@ impl<'a> Images<'a> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        let loaded = self.read(source.source, features).map(|mut texture| {
+        let instead = if for_what == Use::Numbers { FACTORS } else { PLAIN };
+        let loaded = self.read(source.source, instead, features).map(|mut texture| {
             if let Use::Cutout(threshold) = for_what {
                 cut_at_half(&mut texture.rgba, threshold);
             }
@@ -114,7 +115,12 @@ impl<'a> Images<'a> {
     }
 
     /// Decodes an image; a fault is a note.
-    fn read(&mut self, index: Index<Image>, features: &mut Features) -> Option<Texture> {
+    fn read(
+        &mut self,
+        index: Index<Image>,
+        instead: &str,
+        features: &mut Features,
+    ) -> Option<Texture> {
         let number = index.value();
         match self.decode(index, features) {
             Ok((texture, remarks)) => {
@@ -126,7 +132,7 @@ impl<'a> Images<'a> {
             Err(error) => {
                 let place =
                     if number == NONE { "an image".to_owned() } else { format!("image {number}") };
-                features.note("image", 1, || format!("{place}: {error}; {PLAIN}"));
+                features.note("image", 1, || format!("{place}: {error}; {instead}"));
                 None
             }
         }
@@ -176,6 +182,8 @@ const NONE: usize = u32::MAX as usize;
 
 /// In place of a texture.
 const PLAIN: &str = "the plain colour stands for it";
+/// In place of a texture of metalness and roughness.
+const FACTORS: &str = "the factors of metalness and roughness alone count";
 
 /// The sampling of a texture. Values that glTF does not have count as its default.
 fn sampling_of(sampler: &Sampler) -> Sampling {

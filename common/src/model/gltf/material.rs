@@ -143,7 +143,10 @@ impl Look {
             ..Material::default()
         };
         let mut look = Self::default();
-        if let Some(info) = values.texture {
+        let both = source.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
+        let both = both.filter(|_| values.texture_of_both.is_some());
+        // All textures of a material read the same coordinates.
+        if let Some(info) = values.texture.or(both) {
             look.coordinates = Coordinates::of_texture(info);
         }
         set_alpha(&mut material, source, &values, images, features, &place());

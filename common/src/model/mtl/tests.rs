@@ -242,7 +242,7 @@ fn a_texture_is_seen() {
 
     for keyword in ["map_Kd", "map_d"] {
         let (_, warnings) = textured(TRIANGLE, &format!("newmtl a\n{keyword} t.png\n"));
-        let what = "is on faces without texture coordinates; write vt, and f with v/vt; one texel colours the \
+        let what = "is on faces without texture coordinates; write vt, and f with v/vt; one texel counts for the \
                     whole face (1 in all)";
         assert_eq!(warnings, [format!("m.mtl:2: {keyword} {what}")]);
     }

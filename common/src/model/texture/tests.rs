@@ -78,6 +78,36 @@ fn a_file_of_numbers_is_linear_and_one_of_colours_too_is_two_textures() {
 }
 
 #[test]
+fn a_file_of_numbers_that_is_none_leaves_the_numbers() {
+    for (name, bytes) in [("t.png", &b"text"[..]), ("other.png", b"")] {
+        let mtl = b"newmtl a\nPr 0.25\nmap_Pr t.png\nmap_Pm t.png\n";
+        let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+        let files: [(&str, &[u8]); 3] =
+            [("model.obj", obj.as_bytes()), ("m.mtl", mtl), (name, bytes)];
+        let model = load_files(&files, &Limits::DEFAULT).unwrap();
+        let microfacet = model.materials[model.meshes[0].material].microfacet.clone().unwrap();
+        assert_eq!((microfacet.roughness, microfacet.metallic), (0.25, 0.0), "{name}");
+        assert_eq!((microfacet.roughness_texture, microfacet.metallic_texture), (None, None));
+        let end = "; the material's number alone counts";
+        assert!(model.warnings[0].contains(end), "{:?}", model.warnings);
+    }
+}
+
+#[test]
+fn a_file_of_numbers_on_faces_without_coordinates_has_a_warning() {
+    let texel = png(&[[1, 2, 3, 255]], 1);
+    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    let files: [(&str, &[u8]); 3] =
+        [("model.obj", obj.as_bytes()), ("m.mtl", b"newmtl a\nmap_Pr t.png\n"), ("t.png", &texel)];
+    let model = load_files(&files, &Limits::DEFAULT).unwrap();
+    assert!(
+        model.warnings[0].starts_with("m.mtl:2: map_Pr is on faces without"),
+        "{:?}",
+        model.warnings
+    );
+}
+
+#[test]
 fn paths_start_at_the_mtl_file_and_names_at_the_obj_file() {
     let obj = format!("mtllib sub/m.mtl\n{TRIANGLE}");
     let texel = png(&[[1, 2, 3, 4]], 1);
