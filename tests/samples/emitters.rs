@@ -63,7 +63,7 @@ fn the_picture_repeats() {
 
 /// Surfaces of all kinds, including mirrors, lit by spheres and by a mesh.
 #[test]
-#[ignore = "nightly: 256 samples a pixel, three times; quick: emitters::closed_forms::a_ball_lights_a_plane_as_its_closed_form_says"]
+#[ignore = "nightly: 256 samples per pixel, three times; quick: emitters::closed_forms::a_ball_lights_a_plane_as_its_closed_form_says"]
 fn three_estimators_make_one_picture() {
     let [bsdf, light, mis] = [0, 1, 2].map(|i| {
         let sets = [&estimator(ESTIMATORS[i])[..], &format!("seed={i}"), "depth=3"];
@@ -84,7 +84,7 @@ fn three_estimators_make_one_picture() {
 }
 
 #[test]
-#[ignore = "nightly: 64 samples a pixel, three times; quick: emitters::closed_forms::many_balls_light_it_as_all_of_them_do_whichever_are_asked"]
+#[ignore = "nightly: 64 samples per pixel, three times; quick: emitters::closed_forms::many_balls_light_it_as_all_of_them_do_whichever_are_asked"]
 fn one_emitter_all_and_those_by_power_make_one_picture() {
     let choices = ["one", "all", "by power"];
     let shown = [0, 1, 2].map(|i| {

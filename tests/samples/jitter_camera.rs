@@ -110,7 +110,7 @@ fn four_times_the_samples_halve_the_error() {
 }
 
 #[test]
-#[ignore = "nightly: 1,024 samples a pixel; quick: jitter_camera::four_times_the_samples_halve_the_error"]
+#[ignore = "nightly: 1,024 samples per pixel; quick: jitter_camera::four_times_the_samples_halve_the_error"]
 fn so_they_do_by_many_samples() {
     error_halves([16, 64, 256], 1024);
 }

@@ -77,7 +77,7 @@ fn the_picture_repeats() {
 }
 
 #[test]
-#[ignore = "nightly: 64 samples a pixel; quick: path_tracing::closed_forms::roulette_ends_a_path_that_has_no_end_and_keeps_its_mean"]
+#[ignore = "nightly: 64 samples per pixel; quick: path_tracing::closed_forms::roulette_ends_a_path_that_has_no_end_and_keeps_its_mean"]
 fn roulette_changes_no_mean() {
     // With other seeds, so that the errors are independent.
     let on = chapter(SIZE).frames(64).sets(&["depth=256"]).picture();

@@ -67,9 +67,7 @@ impl Setup {
                 .warnings
                 .push(format!("{}: has lights; {lit} ({lights} in all)", shown(path)));
         }
-        let left_out = scene.looks_left_out(looks);
-        let left_out = left_out.iter().map(|what| format!("{}: {what}", shown(path)));
-        scene.model.warnings.extend(left_out);
+        scene.show_only(looks, &shown(path).to_string());
         output::warn(&scene.model.warnings);
         Ok(scene)
     }

@@ -71,7 +71,7 @@ impl MaterialLibrary {
         let Self { mut materials, textures, places, .. } = self;
         let (textures, positions) = textures.load(limits, warnings);
         for (material, places) in materials.iter_mut().zip(places) {
-            for slot in [&mut material.base_texture, &mut material.opacity_texture] {
+            for slot in material.textures() {
                 *slot = slot.and_then(|file| positions[file]);
             }
             places.show(material, warnings);
@@ -196,6 +196,18 @@ impl MaterialLibrary {
                     places.opacity = (transparency == 1.0).then(|| statement.place());
                 }
             }
+            "Pr" => {
+                if let Some(roughness) = value.number(0.0, 1.0) {
+                    material.microfacet.get_or_insert_default().roughness = roughness;
+                    places.has_roughness = true;
+                }
+            }
+            "Pm" => {
+                if let Some(metallic) = value.number(0.0, 1.0) {
+                    material.microfacet.get_or_insert_default().metallic = metallic;
+                    places.has_metalness = true;
+                }
+            }
             "illum" => {
                 if let Some(illumination) = value.illumination() {
                     material.illumination = illumination;
@@ -217,7 +229,22 @@ impl MaterialLibrary {
                 }
                 let (slot, role) = match keyword {
                     "map_Kd" => (&mut material.base_texture, Role::Color),
-                    _ => (&mut material.opacity_texture, Role::Opacity),
+                    "map_d" => (&mut material.opacity_texture, Role::Opacity),
+                    "map_Pr" => {
+                        places.has_roughness = true;
+                        (
+                            &mut material.microfacet.get_or_insert_default().roughness_texture,
+                            Role::Numbers,
+                        )
+                    }
+                    _ => {
+                        let microfacet = material.microfacet.get_or_insert_default();
+                        // Alone it says all; after a Pm it multiplies that.
+                        if !places.has_metalness {
+                            microfacet.metallic = 1.0;
+                        }
+                        (&mut microfacet.metallic_texture, Role::Numbers)
+                    }
                 };
                 *slot = Some(self.textures.add(image, role, statement.place()));
                 places.texture = Some(format!("{}: {keyword}", statement.place()));

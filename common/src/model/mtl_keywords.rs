@@ -1,8 +1,10 @@
 //! The keywords of MTL, and of its extensions by other programs.
 
 /// The keywords that are read.
-pub(crate) const READ: [&str; 12] =
-    ["newmtl", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
+pub(crate) const READ: [&str; 16] = [
+    "newmtl", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d", "Pr",
+    "Pm", "map_Pr", "map_Pm",
+];
 
 /// Keywords of what is not shown, by kind: its names, what is said of one. A file of many materials has
 /// each many times: one warning for a kind is enough.
@@ -20,9 +22,8 @@ const LEFT_OUT: [(&str, &str); 7] = [
     ("refl map_refl", "is a picture to be reflected; rays find what is really there"),
     ("decal", "is a second texture, which is not shown; map_Kd is"),
     (
-        "Pr Pm Ps Pc Pcr aniso anisor map_Pr map_Pm map_Ps map_Pc map_Pcr map_aniso map_anisor map_RMA map_ORM \
-         Pfr Pfg Pl Pf map_Pfr",
-        "belongs to physically based materials, which are not read; Kd, Ks, Ns and illum are",
+        "Ps Pc Pcr aniso anisor map_Ps map_Pc map_Pcr map_aniso map_anisor map_RMA map_ORM Pfr Pfg Pl Pf map_Pfr",
+        "is a property of physically based materials that is not read; Pr, Pm, map_Pr and map_Pm are",
     ),
 ];
 
@@ -30,7 +31,7 @@ const LEFT_OUT: [(&str, &str); 7] = [
 const PASSED_OVER: &str = "Ka Km sharpness map_Ka map_aat";
 
 /// Numbers of these that are 0 change nothing.
-const NOTHING_AT_0: &str = "Pm Ps Pc Pcr aniso anisor";
+const NOTHING_AT_0: &str = "Ps Pc Pcr aniso anisor";
 
 /// True if a list of keywords has this word, in any case.
 fn has(list: &str, word: &str) -> bool {

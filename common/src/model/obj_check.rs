@@ -15,37 +15,23 @@ use super::tally::Tally;
 use super::text::{Folder, Named, Statement, Text, name, quoted};
 use super::warnings::{Kind, Warnings};
 
-/// Keywords of statements that are not shown.
-const PASSED_OVER: [&str; 29] = [
-    "g",
-    "mg",
-    "l",
-    "p",
-    "vp",
-    "deg",
-    "bmat",
-    "step",
-    "cstype",
-    "curv",
-    "curv2",
-    "surf",
-    "parm",
-    "trim",
-    "hole",
-    "scrv",
-    "sp",
-    "end",
-    "con",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "usemap",
-    "maplib",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
+/// Keywords that draw nothing: they name, group or describe what others draw.
+const PASSED_OVER: [&str; 20] = [
+    "g", "mg", "vp", "deg", "bmat", "step", "cstype", "parm", "trim", "hole", "scrv", "sp", "end",
+    "con", "bevel", "c_interp", "d_interp", "lod", "ctech", "stech",
+];
+
+/// Keywords of what a viewer may draw and a ray cannot hit, or what is not read, with what is said of each.
+const NOT_SHOWN: [(&str, &str); 9] = [
+    ("l", "is a line, which no ray can hit; write faces"),
+    ("p", "is a point, which no ray can hit; write faces"),
+    ("curv", "is a curve, which no ray can hit; write faces"),
+    ("curv2", "is a curve, which no ray can hit; write faces"),
+    ("surf", "is a free-form surface, which is not read; export it as faces"),
+    ("usemap", "is a texture of its own, which is not read; the map_Kd of a material is"),
+    ("maplib", "is a file of textures, which is not read; the map_Kd of a material is"),
+    ("shadow_obj", "is another body for shadows, which is not read; the faces cast them"),
+    ("trace_obj", "is another body for reflections, which is not read; the faces are reflected"),
 ];
 
 /// The uses of a material that was undefined when it was first used.
@@ -250,6 +236,9 @@ impl<'a> Check<'a> {
                     }
                 },
             },
+            _ if let Some((_, what)) = NOT_SHOWN.iter().find(|(other, _)| *other == keyword) => {
+                self.leave_out(Kind::Unread, keyword, statement, format!("{keyword} {what}"));
+            }
             _ => {
                 let what = format!(
                     "{} is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are",

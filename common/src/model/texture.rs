@@ -54,21 +54,25 @@ impl Texture {
 pub(crate) type Remark = (warnings::Kind, &'static str);
 
 /// The use of a texture in a material.
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
     /// RGB.
     Color,
     /// Alpha.
     Opacity,
+    /// Numbers in RGB, which are linear.
+    Numbers,
 }
 
 /// The texture files named by materials.
 ///
 /// One file is one texture even if it provides both colour and opacity: shaders read RGB for the former and alpha
-/// for the latter, which sRGB encoding does not affect.
+/// for the latter, which sRGB encoding does not affect. Numbers are another texture, because colours are decoded.
 #[derive(Default)]
 pub(crate) struct TextureFiles {
     files: Vec<TextureFile>,
-    indices: HashMap<PathBuf, usize>,
+    /// By file, and whether it holds numbers.
+    indices: HashMap<(PathBuf, bool), usize>,
 }
 
 struct TextureFile {
@@ -83,13 +87,15 @@ impl TextureFiles {
     /// Records a file and returns the position that its texture will have.
     pub fn add(&mut self, named: Named, role: Role, place: String) -> usize {
         let files = &mut self.files;
-        let index = *self.indices.entry(named.path.clone()).or_insert_with(|| {
-            files.push(TextureFile { named, place, color: false, opacity: false });
-            files.len() - 1
-        });
+        let index =
+            *self.indices.entry((named.path.clone(), role == Role::Numbers)).or_insert_with(|| {
+                files.push(TextureFile { named, place, color: false, opacity: false });
+                files.len() - 1
+            });
         match role {
             Role::Color => files[index].color = true,
             Role::Opacity => files[index].opacity = true,
+            Role::Numbers => {}
         }
         index
     }

@@ -14,14 +14,18 @@ pub(crate) struct Places {
     pub opacity: Option<String>,
     /// `illum` of glass.
     pub glass: Option<String>,
-    /// The last `map_Kd` or `map_d`, with its keyword.
+    /// The last statement of a texture, with its keyword.
     pub texture: Option<String>,
+    /// True if `Pr` or `map_Pr` says how rough it is.
+    pub has_roughness: bool,
+    /// True if `Pm` says how much of it is metal.
+    pub has_metalness: bool,
 }
 
 impl Places {
     /// Changes a material so that it is seen, with a warning for each change.
     pub fn show(self, material: &mut Material, warnings: &mut Warnings) {
-        let Self { color, opacity, glass, .. } = self;
+        let Self { color, opacity, glass, has_roughness, .. } = self;
         // Written where there is none.
         if material.refraction == 0.0 {
             material.refraction = 1.0;
@@ -62,5 +66,17 @@ impl Places {
                 Some(_) => {}
             }
         }
+        if let Some(microfacet) = &mut material.microfacet {
+            microfacet.color = material.base_color;
+            if !has_roughness {
+                microfacet.roughness = roughness(material.shininess);
+            }
+        }
     }
+}
+
+/// The roughness of the GGX highlight as wide as the Blinn-Phong one of an exponent (Walter et al. 2007, by Karis
+/// 2013).
+fn roughness(exponent: f32) -> f32 {
+    (2.0 / (exponent + 2.0)).sqrt().sqrt()
 }

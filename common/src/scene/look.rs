@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{Material, Scene};
+use crate::model::Model;
 use crate::model::text::quoted;
 
 /// A look of a material that only some chapters show.
@@ -16,18 +17,28 @@ pub enum Look {
     Transparency,
     /// Light passes through it: [`Material::is_glass`].
     Glass,
+    /// It has a metalness and a roughness.
+    Microfacet,
 }
 
 impl Look {
-    const ALL: [Self; 4] = [Self::Mirror, Self::Holes, Self::Transparency, Self::Glass];
+    const ALL: [Self; 5] =
+        [Self::Mirror, Self::Holes, Self::Transparency, Self::Glass, Self::Microfacet];
 
     /// True if a material needs this look. Glass reflects and may have an opacity, but counts as glass alone.
     fn is_of(self, material: &Material) -> bool {
         match self {
             Self::Glass => material.is_glass(),
-            Self::Mirror => material.is_mirror() && !material.is_glass(),
+            // One line is enough for a polished metal.
+            Self::Mirror => {
+                material.is_mirror() && !material.is_glass() && !Self::Microfacet.is_of(material)
+            }
             Self::Holes => material.opacity_texture.is_some() && !material.is_glass(),
             Self::Transparency => material.opacity < 1.0 && !material.is_glass(),
+            // A matte surface is the same without.
+            Self::Microfacet => material.microfacet.as_ref().is_some_and(|microfacet| {
+                !material.is_glass() && (microfacet.metallic > 0.0 || microfacet.roughness < 1.0)
+            }),
         }
     }
 
@@ -42,14 +53,27 @@ impl Look {
                 "is half transparent; this chapter shows it opaque; 25_scene_effects shows it"
             }
             Self::Glass => "is glass; this chapter shows it solid; 25_scene_effects shows it",
+            Self::Microfacet => {
+                "has a metalness and a roughness; this chapter approximates them; 45_rough_metal shows them"
+            }
         }
     }
 }
 
 impl Scene {
-    /// A warning for each look that the scene's instances need and a chapter does not show: the first such material,
-    /// and the number of them.
-    pub(crate) fn looks_left_out(&self, shown: &[Look]) -> Vec<String> {
+    /// Adds a warning for each look that the scene's instances need and a chapter does not show; `file` begins the line.
+    /// Textures that only such a look reads are no longer kept.
+    pub fn show_only(&mut self, shown: &[Look], file: &str) {
+        let left_out = self.left_out(shown).into_iter().map(|what| format!("{file}: {what}"));
+        let left_out: Vec<_> = left_out.collect();
+        self.model.warnings.extend(left_out);
+        if !shown.contains(&Look::Microfacet) {
+            self.model.remove_microfacets();
+        }
+    }
+
+    /// For each look that is needed and not shown, the first such material, and the number of them.
+    fn left_out(&self, shown: &[Look]) -> Vec<String> {
         let used: BTreeSet<_> = self.instances.iter().map(|instance| instance.material).collect();
         let used = used.into_iter().filter_map(|number| self.model.materials.get(number));
         let used: Vec<_> = used.collect();
@@ -67,13 +91,30 @@ impl Scene {
     }
 }
 
+impl Model {
+    /// Removes metalness and roughness. A texture that nothing else reads becomes a single texel: it keeps its number,
+    /// because the others keep theirs.
+    fn remove_microfacets(&mut self) {
+        self.materials.iter_mut().for_each(|material| material.microfacet = None);
+        let materials = self.materials.iter_mut();
+        let read: BTreeSet<usize> =
+            materials.flat_map(|material| material.textures().filter_map(|t| *t)).collect();
+        for (number, texture) in self.textures.iter_mut().enumerate() {
+            if !read.contains(&number) {
+                (texture.width, texture.height, texture.rgba) = (1, 1, vec![255; 4]);
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use glam::{Affine3A, Vec3};
 
     use super::*;
-    use crate::model::Model;
-    use crate::scene::{Camera, Instance};
+    use crate::gpu::Sampling;
+    use crate::model::Texture;
+    use crate::scene::{Camera, Instance, Microfacet};
 
     fn material(name: &str, illumination: u32, opacity: f32) -> Material {
         let specular = Vec3::splat(0.5);
@@ -99,7 +140,7 @@ mod tests {
         });
         let model = Model { materials, ..Model::default() };
         let scene = Scene { model, instances: used.to_vec(), camera: Camera::default() };
-        let told = scene.looks_left_out(&[]);
+        let told = scene.left_out(&[]);
         let starts = [
             ("material \"chrome\" is a mirror; ", "(2 in all)"),
             ("material \"leaf\" has holes; ", "(1 in all)"),
@@ -110,7 +151,51 @@ mod tests {
         for (line, (start, end)) in told.iter().zip(starts) {
             assert!(line.starts_with(start) && line.ends_with(end), "{line}");
         }
-        let told = scene.looks_left_out(&[Look::Mirror, Look::Transparency, Look::Glass]);
+        let told = scene.left_out(&[Look::Mirror, Look::Transparency, Look::Glass]);
         assert!(told.len() == 1 && told[0].contains("\"leaf\""), "{told:?}");
+    }
+
+    #[test]
+    fn a_chapter_without_microfacets_says_so_and_keeps_no_texture_of_them() {
+        let texture = |name: &str| Texture {
+            name: name.to_owned(),
+            width: 2,
+            height: 1,
+            rgba: vec![7; 8],
+            srgb: false,
+            sampling: Sampling::default(),
+        };
+        let rough =
+            Microfacet { metallic: 1.0, roughness_texture: Some(0), ..Microfacet::default() };
+        let materials = vec![
+            Material { microfacet: Some(rough.clone()), ..material("chrome", 3, 1.0) },
+            Material {
+                base_texture: Some(1),
+                microfacet: Some(Microfacet::default()),
+                ..material("matte", 2, 1.0)
+            },
+        ];
+        let instances = [0, 1].map(|material| Instance {
+            mesh: 0,
+            transform: Affine3A::IDENTITY,
+            material,
+            record_offset: 0,
+        });
+        let model =
+            Model { materials, textures: ["a", "b"].map(texture).into(), ..Model::default() };
+        let scene = Scene { model, instances: instances.to_vec(), camera: Camera::default() };
+        let mut shown = scene.clone();
+        shown.show_only(&[Look::Microfacet], "a.obj");
+        assert!(shown.model.warnings.is_empty() && shown.model.textures == scene.model.textures);
+        assert_eq!(shown.model.materials[0].microfacet, Some(rough));
+        let mut without = scene.clone();
+        without.show_only(&[], "a.obj");
+        let line = "a.obj: material \"chrome\" has a metalness and a roughness; this chapter approximates them; \
+                    45_rough_metal shows them (1 in all)";
+        assert_eq!(without.model.warnings, [line]);
+        let sizes: Vec<_> =
+            without.model.textures.iter().map(|texture| texture.rgba.len()).collect();
+        assert_eq!(sizes, [4, 8]);
+        assert!(without.model.materials.iter().all(|material| material.microfacet.is_none()));
     }
 }

@@ -46,7 +46,28 @@ pub struct Microfacet {
     pub metallic_texture: Option<usize>,
 }
 
+impl Default for Microfacet {
+    /// As rough as can be, and no metal.
+    fn default() -> Self {
+        Self {
+            color: Vec3::splat(0.5),
+            roughness: 1.0,
+            metallic: 0.0,
+            roughness_texture: None,
+            metallic_texture: None,
+        }
+    }
+}
+
 impl Material {
+    /// The textures that are named.
+    pub(crate) fn textures(&mut self) -> impl Iterator<Item = &mut Option<usize>> {
+        let microfacet = self.microfacet.iter_mut().flat_map(|microfacet| {
+            [&mut microfacet.roughness_texture, &mut microfacet.metallic_texture]
+        });
+        [&mut self.base_texture, &mut self.opacity_texture].into_iter().chain(microfacet)
+    }
+
     /// True if rays may pass through part of the surface.
     pub fn has_cutout(&self) -> bool {
         self.opacity < 1.0 || self.opacity_texture.is_some()

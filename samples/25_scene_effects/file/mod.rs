@@ -16,7 +16,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use common::model::text::shown;
-use common::scene::Scene;
+use common::scene::{Look, Scene};
 use description::Description;
 use source::Source;
 use toml::de::DeValue;
@@ -59,8 +59,10 @@ pub fn open(path: &Path) -> Result<Composition> {
     checked(source.read::<Description>(table)?.compose(path, &source)?, path)
 }
 
-/// Holds that what shines can be listed.
-fn checked(scene: Composition, path: &Path) -> Result<Composition> {
+/// Warns of what is not shown, and checks that what shines can be listed.
+fn checked(mut scene: Composition, path: &Path) -> Result<Composition> {
+    let looks = [Look::Mirror, Look::Holes, Look::Transparency, Look::Glass];
+    scene.scene.show_only(&looks, &shown(path).to_string());
     scene.lamps().with_context(|| shown(path))?;
     Ok(scene)
 }

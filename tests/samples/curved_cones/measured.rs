@@ -91,7 +91,7 @@ fn curvature_brings_the_picture_nearer_and_calms_it() {
 }
 
 #[test]
-#[ignore = "nightly: 1,024 rays a pixel; quick: curved_cones::measured::curvature_brings_the_picture_nearer_and_calms_it"]
+#[ignore = "nightly: 1,024 rays per pixel; quick: curved_cones::measured::curvature_brings_the_picture_nearer_and_calms_it"]
 fn error_and_flicker_in_each_of_the_three() {
     let (mut errors, mut flicker) = (Map::new(), Map::new());
     for (name, pixels, judged) in tables(FRAMES, &TRUTH) {

@@ -218,7 +218,7 @@ fn far_from_the_origin_it_stays_sharp_on_one_rung() {
 
 /// The unevenness of a blurred light's disk after some samples.
 #[test]
-#[ignore = "nightly: 1,024 samples a pixel; quick: depth_of_field::aperture::places_are_uniform_over_the_aperture_and_fill_it"]
+#[ignore = "nightly: 1,024 samples per pixel; quick: depth_of_field::aperture::places_are_uniform_over_the_aperture_and_fill_it"]
 fn samples_against_the_noise_of_a_blurred_light() {
     const DIAMETER: f64 = 0.4;
     let lamp = Lamp { at: 0.0, depth: 15.0, side: 4.0 };

@@ -73,7 +73,7 @@ fn entries(open: usize) -> [Vec<[f32; 4]>; 2] {
 /// there exact arithmetic finds the same hit as the driver, a wall from inside. So no ray passed between two
 /// triangles.
 #[test]
-#[ignore = "nightly: 16 samples a pixel, three times; quick: emitters::closed_forms::a_furnace_is_white_whoever_finds_its_light"]
+#[ignore = "nightly: 16 samples per pixel, three times; quick: emitters::closed_forms::a_furnace_is_white_whoever_finds_its_light"]
 fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
     let chess = scenes::chess().expect("the chess set").scene;
     let name = |mesh: usize| &*chess.model.meshes[mesh].name;

@@ -112,7 +112,7 @@ fn a_ball_lights_a_plane_as_its_closed_form_says() {
 }
 
 #[test]
-#[ignore = "nightly: 64 samples a pixel; quick: emitters::closed_forms::a_ball_lights_a_plane_as_its_closed_form_says"]
+#[ignore = "nightly: 64 samples per pixel; quick: emitters::closed_forms::a_ball_lights_a_plane_as_its_closed_form_says"]
 fn so_does_a_ball_above_it_by_more_samples() {
     let mut held = Map::new();
     for scene in ["ball", "low ball"] {
@@ -140,7 +140,7 @@ fn many_balls_light_it_as_all_of_them_do_whichever_are_asked() {
 }
 
 #[test]
-#[ignore = "nightly: 256 samples a pixel; quick: emitters::closed_forms::many_balls_light_it_as_all_of_them_do_whichever_are_asked"]
+#[ignore = "nightly: 256 samples per pixel; quick: emitters::closed_forms::many_balls_light_it_as_all_of_them_do_whichever_are_asked"]
 fn so_they_do_by_more_samples() {
     let expected = lit_by_balls("many balls", 64);
     let mut held = Map::new();
@@ -172,7 +172,7 @@ fn squares_light_each_other_as_their_form_factors_say() {
 }
 
 #[test]
-#[ignore = "nightly: 64 samples a pixel; quick: emitters::closed_forms::squares_light_each_other_as_their_form_factors_say"]
+#[ignore = "nightly: 64 samples per pixel; quick: emitters::closed_forms::squares_light_each_other_as_their_form_factors_say"]
 fn so_they_do_by_many_shadow_rays() {
     squares_light_each_other(64);
 }
@@ -363,7 +363,7 @@ fn a_furnace_is_white_whoever_finds_its_light() {
 }
 
 #[test]
-#[ignore = "nightly: 16 samples a pixel; quick: emitters::closed_forms::a_furnace_is_white_whoever_finds_its_light"]
+#[ignore = "nightly: 16 samples per pixel; quick: emitters::closed_forms::a_furnace_is_white_whoever_finds_its_light"]
 fn so_it_is_by_more_samples() {
     the_furnace_is_white(16);
 }

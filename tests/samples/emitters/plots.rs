@@ -63,7 +63,7 @@ fn errors() {
         ("many balls", lit_by_balls("many balls", side)),
         ("perpendicular squares", form_factors(side, &SQUARES[1].1)),
     ];
-    let x = Axis { label: "rays a pixel", ticks: &[1.0, 10.0, 100.0, 1000.0], logarithmic: true };
+    let x = Axis { label: "rays per pixel", ticks: &[1.0, 10.0, 100.0, 1000.0], logarithmic: true };
     let y = Axis { label: "error, relative", ticks: ERRORS, logarithmic: true };
     let mut held = Map::new();
     let mut charts = Vec::new();
@@ -181,7 +181,7 @@ fn price() {
         }
     }
     let rays = Axis {
-        label: "rays a pixel",
+        label: "rays per pixel",
         ticks: &[1.0, 3.0, 10.0, 30.0, 100.0, 300.0],
         logarithmic: true,
     };

@@ -158,7 +158,7 @@ fn methods_cost_what_is_counted() {
 
 /// With fewer moments than samples, the blur is a row of copies; errors fall as moments are added.
 #[test]
-#[ignore = "nightly: 1,024 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
+#[ignore = "nightly: 1,024 samples per pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn moments_come_near_to_the_smear() {
     let of = |sets: &[&str]| {
         chapter("96x60").sets(&["frame=934", "shutter=2", "show=smear"]).sets(sets).picture()
@@ -190,7 +190,7 @@ fn error(picture: &Picture, exact: &Picture) -> f64 {
 /// With random times, the error falls with the root of the samples. With strata, it falls in proportion to
 /// them, because a pixel is only wrong where an edge passes within a stratum.
 #[test]
-#[ignore = "nightly: 2,048 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
+#[ignore = "nightly: 2,048 samples per pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn strata_are_better_than_chance() {
     let of = |samples: u32, times: &str| {
         let samples = format!("samples={samples}");

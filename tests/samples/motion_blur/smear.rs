@@ -64,7 +64,7 @@ fn the_smear_of_a_ball_is_its_closed_form() {
 }
 
 #[test]
-#[ignore = "nightly: 256 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
+#[ignore = "nightly: 256 samples per pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn so_it_is_by_more_samples() {
     expected::hold("23_motion_blur/ball", smears_of_a_ball("192x120", 256));
 }
@@ -114,7 +114,7 @@ fn mixed(half: f64, time: f64) -> f64 {
 /// A knight that flies and turns, compared with its triangles in 64 bits at 1,024 times, moved by an
 /// independent formula.
 #[test]
-#[ignore = "nightly: 1,024 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
+#[ignore = "nightly: 1,024 samples per pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn the_smear_of_a_knight_is_that_of_1024_times() {
     const TIMES: u32 = 1024;
     let folder = tempfile::tempdir().unwrap();

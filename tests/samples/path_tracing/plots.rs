@@ -64,7 +64,7 @@ fn errors() {
         let variance = factors.iter().map(|p| p * (1.0 - p)).sum::<f64>() / factors.len() as f64;
         scenes.push((name, factors, variance));
     }
-    let x = Axis { label: "samples a pixel", ticks: &FRAMES.map(f64::from), logarithmic: true };
+    let x = Axis { label: "samples per pixel", ticks: &FRAMES.map(f64::from), logarithmic: true };
     let y = Axis {
         label: "root mean squared error",
         ticks: &[0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0],

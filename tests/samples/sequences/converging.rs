@@ -13,7 +13,7 @@ struct Errors {
 }
 
 #[test]
-#[ignore = "nightly: 1,024 samples a pixel; quick: sequences::each_box_of_a_scrambled_net_holds_one_point"]
+#[ignore = "nightly: 1,024 samples per pixel; quick: sequences::each_box_of_a_scrambled_net_holds_one_point"]
 fn every_sequence_converges_to_one_picture_and_the_even_ones_sooner() {
     let reference = chapter(SMALL).frames(1024).sets(&["seed=1"]).picture();
     let errors = |sequence: &str, scrambling: &str| {

@@ -99,7 +99,7 @@ fn errors() {
         );
     }
     expected::hold("37_sequences/errors", held.into());
-    let x = Axis { label: "samples a pixel", ticks: &FRAMES.map(f64::from), logarithmic: true };
+    let x = Axis { label: "samples per pixel", ticks: &FRAMES.map(f64::from), logarithmic: true };
     let y = Axis {
         label: "root mean squared error",
         ticks: &[0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1],

@@ -23,6 +23,8 @@ pub(super) enum Use {
     Color,
     /// Its colour, and holes where its alpha is below a threshold.
     Cutout(f32),
+    /// Its red, green and blue, which are linear.
+    Numbers,
 }
 
 /// A texture of the model.
@@ -41,11 +43,10 @@ pub(super) struct Images<'a> {
     /// Bytes left for texels.
     left: u64,
     pub textures: Vec<Texture>,
-    /// The known textures by image, sampling and threshold, which is 0 without holes.
+    /// The known textures by image, sampling and threshold, which is 0 without holes and infinite for numbers.
     known: HashMap<(usize, Sampling, u32), Option<Loaded>>,
-    means: HashMap<usize, Option<Vec3>>,
-    /// Bytes left for texels of which only the mean is taken: decoding them takes time.
-    left_for_means: u64,
+    /// The means so far, by position in `textures`.
+    means: HashMap<usize, Vec3>,
 }
 
 impl<'a> Images<'a> {
@@ -57,7 +58,6 @@ impl<'a> Images<'a> {
             textures: Vec::new(),
             known: HashMap::new(),
             means: HashMap::new(),
-            left_for_means: limits.texture_bytes,
         }
     }
 
@@ -79,6 +79,7 @@ impl<'a> Images<'a> {
         let threshold = match for_what {
             Use::Color => 0.0,
             Use::Cutout(threshold) => threshold,
+            Use::Numbers => f32::INFINITY,
         };
         let key = (source.source.value(), sampling, threshold.to_bits());
         if let Some(known) = self.known.get(&key) {
@@ -89,34 +90,27 @@ impl<'a> Images<'a> {
                 cut_at_half(&mut texture.rgba, threshold);
             }
             let has_alpha = texture.rgba.chunks_exact(4).any(|texel| texel[3] < 255);
-            self.textures.push(Texture { sampling, ..texture });
+            let srgb = for_what != Use::Numbers;
+            self.textures.push(Texture { sampling, srgb, ..texture });
             Loaded { index: self.textures.len() - 1, has_alpha }
         });
         self.known.insert(key, loaded);
         loaded
     }
 
-    /// The mean of a texture's red, green and blue, as they are written.
-    pub fn mean(&mut self, index: Index<Source>, features: &mut Features) -> Option<Vec3> {
-        let image = self.file.root.get(index)?.source;
-        if let Some(known) = self.means.get(&image.value()) {
-            return *known;
-        }
-        // It is not kept, so it does not take from the textures.
-        std::mem::swap(&mut self.left, &mut self.left_for_means);
-        let mean = self.read(image, features).map(|texture| {
+    /// The mean of the red, green and blue of a texture of the model, as they are written.
+    pub fn mean(&mut self, texture: usize) -> Vec3 {
+        *self.means.entry(texture).or_insert_with(|| {
+            let rgba = &self.textures[texture].rgba;
             let mut sum = [0u64; 3];
-            for texel in texture.rgba.chunks_exact(4) {
+            for texel in rgba.chunks_exact(4) {
                 for (sum, &value) in sum.iter_mut().zip(texel) {
                     *sum += u64::from(value);
                 }
             }
-            let count = (texture.rgba.len() / 4).max(1) as f64 * 255.0;
+            let count = (rgba.len() / 4).max(1) as f64 * 255.0;
             Vec3::from(sum.map(|sum| (sum as f64 / count) as f32))
-        });
-        std::mem::swap(&mut self.left, &mut self.left_for_means);
-        self.means.insert(image.value(), mean);
-        mean
+        })
     }
 
     /// Decodes an image; a fault is a note.

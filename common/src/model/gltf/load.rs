@@ -243,7 +243,11 @@ impl<'a> Loading<'a> {
             *self.known.entry((number, tint.to_array().map(f32::to_bits))).or_insert(count);
         if material == count {
             let base_color = look.material.base_color * tint;
-            self.materials.push(Material { base_color, ..look.material });
+            let mut material = Material { base_color, ..look.material };
+            if let Some(microfacet) = &mut material.microfacet {
+                microfacet.color *= tint;
+            }
+            self.materials.push(material);
         }
         self.meshes.push(Mesh { material, ..mesh });
         Some(self.meshes.len() - 1)

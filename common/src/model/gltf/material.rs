@@ -1,7 +1,7 @@
 //! A material of glTF in the terms of today's chapters: a diffuse colour, a highlight, a mirror, glass, emission.
 //!
-//! Metal and roughness are approximated: a smooth metal becomes a mirror of its colour, a rough one a matte surface
-//! of it.
+//! Metal and roughness are kept as they are, and approximated for chapters that do not show them: a smooth metal
+//! becomes a mirror of its colour, a rough one a matte surface of it.
 
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::extensions::material::Volume;
@@ -13,7 +13,7 @@ use super::features::Features;
 use super::image::{Images, Use};
 use super::{name, range};
 use crate::model::text::quoted;
-use crate::scene::material::Material;
+use crate::scene::material::{Material, Microfacet};
 
 /// The roughness below which a surface reflects an image.
 const MIRROR: f32 = 0.25;
@@ -91,6 +91,8 @@ struct Values<'a> {
     roughness: f32,
     /// Reflectance head-on; else it follows from the others.
     specular: Option<Vec3>,
+    /// Position in the model: roughness is in green, metalness in blue.
+    texture_of_both: Option<usize>,
 }
 
 impl Look {
@@ -113,20 +115,17 @@ impl Look {
         range::check(source, features, &place());
         let values = Values::of(source, images, features);
         let color = values.color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
-        let metallic = values.metallic.clamp(0.0, 1.0);
-        let roughness = values.roughness.clamp(0.0, 1.0);
+        let microfacet = Microfacet {
+            color,
+            roughness: values.roughness.clamp(0.0, 1.0),
+            metallic: values.metallic.clamp(0.0, 1.0),
+            roughness_texture: values.texture_of_both,
+            metallic_texture: values.texture_of_both,
+        };
+        // For chapters that approximate them, one value replaces the texture.
+        let mean = values.texture_of_both.map_or(Vec3::ONE, |texture| images.mean(texture));
+        let (roughness, metallic) = (microfacet.roughness * mean.y, microfacet.metallic * mean.z);
         let is_mirror = roughness < MIRROR && metallic > 0.5 || roughness < 0.05;
-        if metallic > 0.0 && metallic < 1.0 || (MIRROR..1.0).contains(&roughness) {
-            features.note("rough", 1, || {
-                let Values { metallic, roughness, .. } = values;
-                let what =
-                    "both are approximated by a matte surface, or by a mirror if it is smooth";
-                format!(
-                    "{} has the metalness {metallic:.2} and the roughness {roughness:.2}; {what}",
-                    place()
-                )
-            });
-        }
         let reflectance = Vec3::splat(DIELECTRIC).lerp(color, metallic);
         let mut material = Material {
             base_color: if is_mirror { color * (1.0 - (1.0 - BELOW) * metallic) } else { color },
@@ -138,6 +137,8 @@ impl Look {
             },
             shininess: exponent(roughness),
             illumination: if is_mirror { REFLECTION } else { HIGHLIGHT },
+            // A reflectance of its own is not among the terms of metalness.
+            microfacet: values.specular.is_none().then_some(microfacet),
             name: name.clone(),
             ..Material::default()
         };
@@ -173,18 +174,19 @@ impl<'a> Values<'a> {
                 metallic: 0.0,
                 roughness: 1.0 - old.glossiness_factor.0,
                 specular: Some(Vec3::from(old.specular_factor.0)),
+                texture_of_both: None,
             };
         }
         let pbr = &source.pbr_metallic_roughness;
-        // One value replaces the texture of both: roughness is in green, metal in blue.
-        let texture = pbr.metallic_roughness_texture.as_ref();
-        let mean = texture.and_then(|info| images.mean(info.index, features)).unwrap_or(Vec3::ONE);
+        let both = pbr.metallic_roughness_texture.as_ref();
+        let both = both.and_then(|info| images.texture(info.index, Use::Numbers, features));
         Self {
             color: Vec4::from(pbr.base_color_factor.0),
             texture: pbr.base_color_texture.as_ref(),
-            metallic: pbr.metallic_factor.0 * mean.z,
-            roughness: pbr.roughness_factor.0 * mean.y,
+            metallic: pbr.metallic_factor.0,
+            roughness: pbr.roughness_factor.0,
             specular: None,
+            texture_of_both: both.map(|texture| texture.index),
         }
     }
 }

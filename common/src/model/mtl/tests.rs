@@ -2,6 +2,7 @@
 
 use super::super::obj::tests::{TRIANGLE, load_files, load_text};
 use super::*;
+use crate::scene::Microfacet;
 use glam::Vec3;
 
 /// Reads an MTL file through an OBJ file that uses its first material.
@@ -41,7 +42,7 @@ fn line_corrected(line: &str, message: &str, set: impl Fn(&mut Material)) {
 #[test]
 fn every_statement_is_read() {
     let mtl = "# one\nnewmtl a\nKa 1 1 1\n Kd 0.1 0.2 0.3 # red\nKs 0.5\nKe 9 8 7\nNs 20\nNi 1.5\n\
-               Tf 0.9 1 0.8\nd 0.25\nTr 0.1\nillum 2\nPr 0.3\nmap_Ks -s 1 1 1 nowhere.png\nmap_Bump ../x.png\n";
+               Tf 0.9 1 0.8\nd 0.25\nTr 0.1\nillum 2\nPr 0.3\nPm 0.75\nPc 1\nmap_Ks -s 1 1 1 nowhere.png\nmap_Bump ../x.png\n";
     let expected = Material {
         name: "a".to_owned(),
         base_color: Vec3::new(0.1, 0.2, 0.3),
@@ -52,6 +53,12 @@ fn every_statement_is_read() {
         illumination: 2,
         refraction: 1.5,
         transmission: Vec3::new(0.9, 1.0, 0.8),
+        microfacet: Some(Microfacet {
+            color: Vec3::new(0.1, 0.2, 0.3),
+            roughness: 0.3,
+            metallic: 0.75,
+            ..Microfacet::default()
+        }),
         ..Material::default()
     };
     assert_eq!(load_mtl(mtl).unwrap(), expected);
@@ -60,11 +67,11 @@ fn every_statement_is_read() {
         |line: usize, what: &str| format!("m.mtl:{line}: {what}; the line is ignored (1 in all)");
     let lines = [
         unread(
-            13,
-            "Pr belongs to physically based materials, which are not read; Kd, Ks, Ns and illum are",
+            15,
+            "Pc is a property of physically based materials that is not read; Pr, Pm, map_Pr and map_Pm are",
         ),
-        unread(14, "map_Ks is a map of highlights, which is not read; Ks and Ns are"),
-        unread(15, "map_Bump is a map of bumps, which are not shown"),
+        unread(16, "map_Ks is a map of highlights, which is not read; Ks and Ns are"),
+        unread(17, "map_Bump is a map of bumps, which are not shown"),
     ];
     assert_eq!(load_warned(mtl).1, lines);
     assert!(expected.has_cutout() && !Material::default().has_cutout());
@@ -119,12 +126,9 @@ fn what_is_not_shown_is_one_warning_for_a_kind() {
         ("map_Tr a.png", "map_Tr is a map of what a material lets through"),
         ("refl -type sphere a.png", "refl is a picture to be reflected"),
         ("decal a.png", "decal is a second texture"),
-        ("Pr 0\nPm 1\nmap_Pr a.png\nmap_ORM a.png", "Pr belongs to physically based materials"),
+        ("Ps 1\nPc 1\nmap_ORM a.png", "Ps is a property of physically based materials"),
         // Without them a picture is the same.
-        (
-            "Ka 1 1 1\nmap_Ka a.png\nsharpness 60\nmap_aat on\nPm 0\nPs 0.0\nPc 0\naniso 0\nanisor 0",
-            "",
-        ),
+        ("Ka 1 1 1\nmap_Ka a.png\nsharpness 60\nmap_aat on\nPs 0.0\nPc 0\naniso 0\nanisor 0", ""),
     ];
     for (lines, what) in kinds {
         let (material, warnings) = load_warned(&format!("newmtl a\n{lines}\n{lines}\n"));
@@ -319,4 +323,25 @@ fn faces_without_material_get_the_default_after_the_others() {
     assert_eq!(names, ["x", "c", "d", "default"]);
     assert_eq!(model.meshes.iter().map(|mesh| mesh.material).collect::<Vec<_>>(), [3, 2]);
     assert_eq!(model.materials[3], Material::default());
+}
+
+#[test]
+fn metalness_and_roughness_complete_each_other() {
+    let of = |lines: &str| {
+        let (material, warnings) = load_warned(&format!("newmtl a\nKd 1 0.5 0\nNs 30\n{lines}\n"));
+        (material.microfacet, warnings)
+    };
+    let gold = Microfacet { color: Vec3::new(1.0, 0.5, 0.0), ..Microfacet::default() };
+    assert_eq!(of(""), (None, vec![]));
+    assert_eq!(of("Pr 0.25").0, Some(Microfacet { roughness: 0.25, ..gold.clone() }));
+    // As wide as the highlight of 30: alpha is the root of 2 / 32.
+    assert_eq!(of("Pm 1").0, Some(Microfacet { roughness: 0.5, metallic: 1.0, ..gold.clone() }));
+    assert_eq!(of("Pm 1\nPr 0").0, Some(Microfacet { roughness: 0.0, metallic: 1.0, ..gold }));
+    let (microfacet, warnings) = of("Pr 1.5\nPm -1");
+    assert_eq!(microfacet.map(|m| (m.roughness, m.metallic)), Some((1.0, 0.0)));
+    let lines = [
+        "m.mtl:4: Pr is 1.5, and cannot be more than 1; 1 is taken (1 in all)",
+        "m.mtl:5: Pm is -1, and cannot be negative; 0 is taken (1 in all)",
+    ];
+    assert_eq!(warnings, lines);
 }

@@ -25,7 +25,7 @@ fn what_is_no_obj_file() {
          and mtllib are",
     );
     refused("", "model.obj: has no faces");
-    refused("# nothing\nv 0 0 0\no empty\nl 1 1\n", "model.obj: has no faces");
+    refused("# nothing\nv 0 0 0\no empty\n", "model.obj: has no faces");
     refused("o a\n\0", "model.obj:2: holds a zero byte: this is a binary file, not text");
     let bytes = load_files(&[("model.obj", b"\xff\x80\xfe\n")], &Limits::DEFAULT);
     assert!(bytes.unwrap_err().starts_with(r#"model.obj:1: "\xFF\x80\xFE" is not a"#));
@@ -250,9 +250,28 @@ fn statements_of_other_formats_are_passed_over() {
         "V 0 0 0\nV 1 0 0\nV 0 1 0\nVT 0 0\nVn 0 0 1\nO a\nS off\nUSEMTL x\nF 1/1/1 2/1/1 3/1/1\n";
     let lower = load_text(&upper.to_lowercase()).unwrap();
     assert_eq!(load_text(upper).unwrap(), lower);
-    let known = "l 1 2\np 1\ns off\nvp 0.5\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\nlod 2\n\
-                 bevel on\nshadow_obj a.obj\nmg 1 0.5";
+    let known = "s off\nvp 0.5\ncstype bezier\ndeg 3\nend\nlod 2\nbevel on\nmg 1 0.5";
     lines_warned(known, &[]);
+}
+
+#[test]
+fn elements_that_no_ray_can_hit_have_a_warning_each() {
+    lines_warned(
+        "l 1 2\np 1\nl 2 3\nL 3 1\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2\nusemap a\nshadow_obj a.obj",
+        &[
+            "model.obj:7: l is a line, which no ray can hit; write faces; the line is ignored (3 in all)",
+            "model.obj:8: p is a point, which no ray can hit; write faces; the line is ignored (1 in all)",
+            "model.obj:11: curv is a curve, which no ray can hit; write faces; the line is ignored (1 in all)",
+            "model.obj:12: surf is a free-form surface, which is not read; export it as faces; the line is \
+             ignored (1 in all)",
+            "model.obj:13: usemap is a texture of its own, which is not read; the map_Kd of a material is; the \
+             line is ignored (1 in all)",
+            "model.obj:14: shadow_obj is another body for shadows, which is not read; the faces cast them; the \
+             line is ignored (1 in all)",
+        ],
+    );
+    let only_lines = load_text("v 0 0 0\nv 1 0 0\nl 1 2\n").unwrap_err();
+    assert_eq!(only_lines, "model.obj:3: l is a line, which no ray can hit; write faces");
 }
 
 #[test]

@@ -64,6 +64,20 @@ fn rows_come_from_the_top_and_alpha_is_kept() {
 }
 
 #[test]
+fn a_file_of_numbers_is_linear_and_one_of_colours_too_is_two_textures() {
+    let texel = png(&[[1, 2, 3, 255]], 1);
+    let files: [(&str, &[u8]); 1] = [("t.png", &texel)];
+    let (materials, textures) =
+        load("newmtl a\nmap_Kd t.png\nmap_Pr t.png\nmap_Pm t.png\n", &files).unwrap();
+    assert_eq!(textures.iter().map(|texture| texture.srgb).collect::<Vec<_>>(), [true, false]);
+    let microfacet = materials[0].microfacet.as_ref().unwrap();
+    assert_eq!(materials[0].base_texture, Some(0));
+    assert_eq!((microfacet.roughness_texture, microfacet.metallic_texture), (Some(1), Some(1)));
+    assert_eq!((microfacet.roughness, microfacet.metallic), (1.0, 1.0));
+    assert_eq!(microfacet.color, glam::Vec3::ONE);
+}
+
+#[test]
 fn paths_start_at_the_mtl_file_and_names_at_the_obj_file() {
     let obj = format!("mtllib sub/m.mtl\n{TRIANGLE}");
     let texel = png(&[[1, 2, 3, 4]], 1);

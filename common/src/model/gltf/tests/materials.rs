@@ -5,6 +5,7 @@ use glam::{Vec2, Vec3};
 
 use super::{CORNERS, Data, one, shown};
 use crate::gpu::{Sampling, Wrap};
+use crate::scene::Microfacet;
 
 /// A picture of one texel.
 fn texel(rgba: [u8; 4]) -> String {
@@ -72,6 +73,31 @@ fn materials_become_todays() {
     ));
     assert!(metal.model.materials[0].is_mirror());
     assert_eq!(metal.model.materials[0].specular, Vec3::new(1.0, 0.5, 0.0));
+    let gold = Microfacet {
+        color: Vec3::new(1.0, 0.5, 0.0),
+        roughness: 0.0,
+        metallic: 1.0,
+        roughness_texture: None,
+        metallic_texture: None,
+    };
+    assert_eq!(metal.model.materials[0].microfacet, Some(gold.clone()));
+    // A texture of both is kept, linear; its mean decides what other chapters show.
+    let both = quad(
+        r#""pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1],"metallicRoughnessTexture":{"index":0}}"#,
+        [255, 51, 0, 255],
+    );
+    let both = shown(&both);
+    let rough = Microfacet {
+        roughness: 1.0,
+        roughness_texture: Some(0),
+        metallic_texture: Some(0),
+        ..gold
+    };
+    assert_eq!(both.model.materials[0].microfacet, Some(rough));
+    assert!(!both.model.textures[0].srgb && !both.model.materials[0].is_mirror());
+    assert_eq!(both.model.materials[0].base_texture, None);
+    let old = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}}"#;
+    assert_eq!(shown(&quad(old, [0; 4])).model.materials[0].microfacet, None);
     let glass = r#""extensions":{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.3},"KHR_materials_volume":{"thicknessFactor":1,"attenuationColor":[0.25,1,1],"attenuationDistance":2}}"#;
     let glass = shown(&quad(glass, [0; 4]));
     let material = &glass.model.materials[0];
