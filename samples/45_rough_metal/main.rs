@@ -104,7 +104,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_with(&[Look::Mirror], scenes::chess)?;
+        let source = setup.scene_with(&[Look::Mirror, Look::Microfacet], scenes::chess)?;
         let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source);
         let camera = scene.camera;
         let rough = RoughScene::new(gpu, &scene, setup.options, OWN)?;
