@@ -3,11 +3,11 @@
 //! New since 45_rough_metal: a sky from an EXR file, shadow rays to texels chosen by their light, and the balance of
 //! these with bounces. The sun is a texel.
 
+#[path = "../45_rough_metal/albedo.rs"]
+mod albedo;
 #[allow(dead_code, reason = "29 also makes tables of checked weights")]
 #[path = "../29_emitters/alias.rs"]
 mod alias;
-#[path = "../45_rough_metal/albedo.rs"]
-mod albedo;
 #[path = "../45_rough_metal/rough_scene.rs"]
 mod rough_scene;
 #[path = "../45_rough_metal/scenes.rs"]

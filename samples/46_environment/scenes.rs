@@ -59,7 +59,8 @@ impl Skies {
             SkyName::Evening => self.evening.clone(),
             SkyName::White => Panorama { width: 2, height: 1, texels: vec![[1.0; 3]; 2] },
             SkyName::File => {
-                let what = || UsageError("sky=file shows the file of --sky FILE.exr; name one".to_owned());
+                let what =
+                    || UsageError("sky=file shows the file of --sky FILE.exr; name one".to_owned());
                 self.file.clone().with_context(what)?
             }
         })

@@ -143,7 +143,10 @@ pub fn solid_angle(map: &Panorama, row: u32) -> f64 {
 pub fn divided(map: &Panorama, cut: u32) -> Result<Panorama> {
     let (width, height) = (map.width * cut, map.height * cut);
     let count = width as usize * height as usize;
-    ensure!(count <= TEXELS, "cut={cut} makes {count} texels of the sky; at most {TEXELS} can be chosen from");
+    ensure!(
+        count <= TEXELS,
+        "cut={cut} makes {count} texels of the sky; at most {TEXELS} can be chosen from"
+    );
     let texel = |i: usize| {
         let (x, y) = (i % width as usize / cut as usize, i / width as usize / cut as usize);
         map.texels[y * map.width as usize + x]

@@ -71,7 +71,8 @@ impl Panorama {
                 "{name}: has {all} bytes per texel, at most {TEXEL_BYTES} are read"
             );
             let of_sky = header.channels.list.iter();
-            let of_sky = of_sky.filter(|channel| ["R", "G", "B"].iter().any(|it| channel.name.eq(it)));
+            let of_sky =
+                of_sky.filter(|channel| ["R", "G", "B"].iter().any(|it| channel.name.eq(it)));
             ensure!(
                 of_sky.count() == 3,
                 "{name}: has no channels R, G and B; save it as a picture of colours"
@@ -165,7 +166,9 @@ mod tests {
         assert_eq!(read.texels[4], [1.0, 2.0, 3.0]);
         assert_eq!(
             warnings,
-            ["a.exr: texel 0, 0 is [1.0, NaN, 3.0]; what is negative, infinite or no number is 0 (3 in all)"]
+            [
+                "a.exr: texel 0, 0 is [1.0, NaN, 3.0]; what is negative, infinite or no number is 0 (3 in all)"
+            ]
         );
     }
 
@@ -209,7 +212,8 @@ mod tests {
         let mut bytes = file(16, 8, |_| [1.0; 3]);
         let name = b"dataWindow\0box2i\0";
         let at = bytes.windows(name.len()).position(|it| it == name).unwrap() + name.len() + 4;
-        for (last, right) in [(1u32 << 20, 16), (16000, 16000), (i32::MAX as u32, i32::MAX as u32)] {
+        for (last, right) in [(1u32 << 20, 16), (16000, 16000), (i32::MAX as u32, i32::MAX as u32)]
+        {
             bytes[at + 8..at + 12].copy_from_slice(&last.to_le_bytes());
             bytes[at + 12..at + 16].copy_from_slice(&(right as u32).to_le_bytes());
             error(&bytes);

@@ -63,8 +63,7 @@ fn make(check: bool) -> Result<()> {
 
 /// The direction of an azimuth and an elevation, in degrees.
 fn direction([azimuth, elevation]: [f32; 2]) -> Vec3 {
-    let ((x, z), (y, flat)) =
-        (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
+    let ((x, z), (y, flat)) = (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
     Vec3::new(x * flat, y, z * flat)
 }
 
@@ -120,7 +119,8 @@ fn evening(direction: Vec3) -> Vec3 {
     let high = Vec3::new(0.10, 0.13, 0.30).lerp(Vec3::new(0.30, 0.26, 0.42), west);
     let sky = low.lerp(high, smooth(0.0, 0.75, height));
     let cover = smooth(0.40, 0.66, clouds(direction)) * smooth(0.0, 0.15, direction.y);
-    let lit = Vec3::new(0.16, 0.14, 0.22).lerp(Vec3::new(2.2, 0.75, 0.42), west.powi(3) * (1.0 - 0.6 * height));
+    let lit = Vec3::new(0.16, 0.14, 0.22)
+        .lerp(Vec3::new(2.2, 0.75, 0.42), west.powi(3) * (1.0 - 0.6 * height));
     sky.lerp(lit, 0.85 * cover)
 }
 

@@ -11,7 +11,12 @@ use run::shaders_with;
 /// Rough spheres in the evening: on smooth ones, uniform directions find so much in so few samples that their scatter
 /// says nothing of their error.
 fn evening(sampler: &str, seed: u32, shaders: Option<&std::path::Path>) -> Picture {
-    let run = chapter("64x32").frames(128).sets(&["scene=spheres", "sky=evening", "depth=3", "roughness=0.6"]);
+    let run = chapter("64x32").frames(128).sets(&[
+        "scene=spheres",
+        "sky=evening",
+        "depth=3",
+        "roughness=0.6",
+    ]);
     let run = run.set("sampling", sampler).set("seed", seed);
     match shaders {
         Some(folder) => run.shaders(folder).picture(),
@@ -48,10 +53,8 @@ const SHINES: [u32; 2] = [30, 5];
 
 /// The direction of a place in the picture.
 fn direction(u: f64, v: f64) -> DVec3 {
-    let ((x, z), (flat, y)) = (
-        (std::f64::consts::TAU * (u - 0.5)).sin_cos(),
-        (std::f64::consts::PI * v).sin_cos(),
-    );
+    let ((x, z), (flat, y)) =
+        ((std::f64::consts::TAU * (u - 0.5)).sin_cos(), (std::f64::consts::PI * v).sin_cos());
     DVec3::new(x * flat, y, -z * flat)
 }
 
@@ -84,7 +87,7 @@ const ESTIMATE: &str = "
     float cosine = (float(at.y) + 0.5) / 8.0;
     vec3 view = vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine);
     Microfacets surface = microfacets(vec3(1.0), ROUGHNESS, 1.0, view);
-    for (uint i = 0; i < 1024; i++) {
+    for (uint i = 0; i < 512; i++) {
         vec4 u = random(at, i, 0, 9), w = random(at, i, 0, 10);
         float light = 0.0;
         if (SAMPLER != SAMPLER_BOUNCES) {
@@ -95,7 +98,7 @@ const ESTIMATE: &str = "
         Texel texel = texel_at(push.sky, push.rotation, next.direction);
         Path path = Path(at, vec3(0.0), next.weight, 1, density_of(surface, w.x, next), 0);
         light += next.weight.r * part_by_bounce(path, texel.density) * texel.radiance.r;
-        answer += vec4(light) / 1024.0;
+        answer += vec4(light) / 512.0;
     }";
 
 #[test]
@@ -125,9 +128,11 @@ fn a_single_texel_lights_as_in_f64() {
                 let pixels = &shown.pixels[row * 32..(row + 1) * 32];
                 let values: Vec<f64> = pixels.iter().map(|pixel| pixel[0].into()).collect();
                 let Estimate { mean, confidence } = Estimate::of(&values);
-                // 1024 additions in floats.
+                // 512 additions in floats.
                 let allowed = confidence + 1e-4 * value;
-                println!("{roughness}, {sampler}, {cosine:.2}: {mean:.5} ± {confidence:.5}, {value:.5}");
+                println!(
+                    "{roughness}, {sampler}, {cosine:.2}: {mean:.5} ± {confidence:.5}, {value:.5}"
+                );
                 assert!(
                     (mean - value).abs() < allowed,
                     "{roughness}, {sampler}, {cosine}: {mean} ± {allowed}, not {value}"
@@ -144,8 +149,10 @@ fn nothing_is_negative_or_no_number() {
         if run::has_worst_arithmetic() { &["driver", "worst"] } else { &["driver"] };
     for arithmetic in arithmetics {
         for sampler in SAMPLERS {
-            let picture = chapter("48x30").set("sampling", sampler).arithmetic(arithmetic).picture();
-            let is_light = |pixel: &[f32; 4]| pixel.iter().all(|value| *value >= 0.0 && value.is_finite());
+            let picture =
+                chapter("24x15").set("sampling", sampler).arithmetic(arithmetic).picture();
+            let is_light =
+                |pixel: &[f32; 4]| pixel.iter().all(|value| *value >= 0.0 && value.is_finite());
             assert!(picture.pixels.iter().all(is_light), "{arithmetic}, {sampler}");
         }
     }

@@ -17,10 +17,7 @@ fn relative(shown: &Picture, expected: &Picture) -> f64 {
 /// The spheres, all of one roughness, without what the camera sees of the sky: its mean is the same for all.
 fn spheres(sky: &str, roughness: &str) -> run::Chapter {
     let sets = ["scene=spheres", "depth=2", "camera eye=0,3,9", "field of view=34"];
-    chapter("96x48")
-        .sets(&sets)
-        .set("sky", sky)
-        .set("roughness", roughness)
+    chapter("96x48").sets(&sets).set("sky", sky).set("roughness", roughness)
 }
 
 const FRAMES: u32 = 16;
@@ -39,7 +36,8 @@ fn noise() {
             for sampler in SAMPLERS {
                 let run = of(sampler, 1, FRAMES);
                 let error = relative(&run.picture, &expected);
-                let milliseconds = run.report["gpu_milliseconds"]["median"].as_f64().expect("a time");
+                let milliseconds =
+                    run.report["gpu_milliseconds"]["median"].as_f64().expect("a time");
                 // The error falls as the root of the time: that of 100 ms per pixel row of the picture's size.
                 let time = milliseconds * f64::from(FRAMES);
                 let equal = error * (time / 1000.0).sqrt();

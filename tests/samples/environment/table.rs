@@ -1,12 +1,9 @@
 //! The table of texels: its shares, its densities, and the sum of its weights.
 
-use serde_json::Map;
-
 use super::alias::UNITS;
-use super::sky::{Sum, SkyTable, add, divided, solid_angle};
+use super::sky::{SkyTable, Sum, add, divided, solid_angle};
 use super::{evaluate, own_sky, set};
 use common::model::panorama::Panorama;
-use run::expected;
 
 /// The weights of a sky: luminance times solid angle.
 fn weights(sky: &Panorama) -> Vec<f64> {
@@ -64,18 +61,15 @@ fn a_direction_in_a_texel_finds_that_texel() {
         Texel own = push.sky.texels.at[texel];
         answer = vec4(found.radiance == own.radiance && found.density == own.density, own.density,
             push.sky.rows.at[at.y].height, length(direction));";
-    for rotation in ["rotation=0", "rotation=77"] {
-        let sets = set(&[rotation]);
-        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-        let shown = evaluate("", body, "512x256", &sets);
-        let found = shown.pixels.iter().filter(|pixel| pixel[0] == 1.0).count();
-        println!("{rotation}: {found} of {}", shown.pixels.len());
-        assert_eq!(found, shown.pixels.len(), "{rotation}");
-        // The densities that shaders use integrate to 1 over the sphere.
-        let around = 2.0 * std::f64::consts::PI / f64::from(sky.width);
-        let all: f64 = shown.pixels.iter().map(|p| f64::from(p[1]) * f64::from(p[2]) * around).sum();
-        assert!((all - 1.0).abs() < 1.2e-7, "{all}");
-    }
+    let sets = set(&["rotation=77"]);
+    let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+    let shown = evaluate("", body, "512x256", &sets);
+    let found = shown.pixels.iter().filter(|pixel| pixel[0] == 1.0).count();
+    assert_eq!(found, shown.pixels.len());
+    // The densities that shaders use integrate to 1 over the sphere.
+    let around = 2.0 * std::f64::consts::PI / f64::from(sky.width);
+    let all: f64 = shown.pixels.iter().map(|p| f64::from(p[1]) * f64::from(p[2]) * around).sum();
+    assert!((all - 1.0).abs() < 1.2e-7, "{all}");
 }
 
 /// What a sum in floats is off by, for the day divided into more and more texels.
@@ -94,15 +88,13 @@ pub fn bound_of_pairs(cut: u32) -> f64 {
 
 #[test]
 fn a_sum_in_floats_forgets_texels_and_in_pairs_it_does_not() {
-    let mut held = Map::new();
     for cut in [1, 2, 4] {
         let [floats, pairs] = offs(cut);
         println!("cut={cut}: floats {floats:.2e}, pairs {pairs:.2e}");
         assert!(pairs.abs() < bound_of_pairs(cut), "cut={cut}: {pairs}");
-        held.insert(format!("{cut}.floats"), floats.abs().into());
-        held.insert(format!("{cut}.pairwise"), pairs.abs().into());
+        // Only an addition after the other loses so much: 131,072 texels would have a bound of 0.008.
+        assert!(floats.abs() > 1e-4, "cut={cut}: a naive sum is right: {floats}");
     }
-    expected::hold_exact("46_environment/sums", held.into());
 }
 
 #[test]
