@@ -42,9 +42,14 @@ impl AliasTable {
                 "emitter {i} has a power of {weight}; it must be finite, and not below 0"
             );
         }
+        Ok(Self::of(weights))
+    }
+
+    /// As [`AliasTable::new`], for fewer than [`UNITS`] weights that are finite and not negative.
+    pub fn of(weights: &[f64]) -> Self {
         let most = weights.iter().copied().fold(0.0, f64::max);
         if most == 0.0 {
-            return Ok(Self { columns: vec![], shares: vec![0; weights.len()] });
+            return Self { columns: vec![], shares: vec![0; weights.len()] };
         }
         // Whole numbers: their sum is the same in any order.
         let whole = |weight: &f64| (weight / most * 2f64.powi(40)).ceil() as u128;
@@ -61,7 +66,7 @@ impl AliasTable {
         let strongest = weights.iter().position(|weight| *weight == most).unwrap_or(0);
         let others = shares.iter().sum::<u64>() - shares[strongest];
         shares[strongest] = all - others;
-        Ok(Self { columns: columns(&shares, count), shares })
+        Self { columns: columns(&shares, count), shares }
     }
 
     /// The probability of number `i`.

@@ -32,6 +32,13 @@ fn options() {
         (&["--samples", "-1..4"], "invalid value '-1..4' for '--samples <A..B>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
         (&["--scene", ""], "a value is required for '--scene <FILE>'"),
+        (&["--sky", ""], "a value is required for '--sky <FILE>'"),
+        (&["--sky", "a.exr"], "brings its own sky and takes no --sky"),
+        (
+            &["--exposure", "nan"],
+            "invalid value 'nan' for '--exposure <STOPS>': stops are a number from -32 to 32",
+        ),
+        (&["--tone", "film"], "[possible values: clamp, reinhard, aces]"),
         (
             &["--pixel", "5"],
             "invalid value '5' for '--pixel <X,Y|click>': a pixel is a column and a row, such as 480,300",

@@ -32,6 +32,7 @@ golden! {
     depth_of_field,
     distant_spheres,
     emitters,
+    environment,
     far_from_origin,
     filtered_checker,
     foundation,

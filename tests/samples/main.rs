@@ -9,6 +9,7 @@ mod curved_cones;
 mod depth_of_field;
 mod distant_spheres;
 mod emitters;
+mod environment;
 mod equalities;
 mod far_from_origin;
 mod filtered_checker;

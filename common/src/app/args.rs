@@ -7,6 +7,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, CommandFactory, FromArgMatches, Parser};
 
+use super::Development;
 use super::files::Files;
 
 use crate::UsageError;
@@ -77,6 +78,14 @@ pub struct Args {
     /// Open this model (.obj) instead of the program's own
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+
+    /// Light the scene by this picture of the sky: an .exr of all directions, twice as wide as high; only 46_environment
+    #[arg(long, value_name = "FILE")]
+    pub sky: Option<PathBuf>,
+
+    /// How a PNG and the window show the picture; an EXR stays as it was rendered
+    #[command(flatten)]
+    pub development: Development,
 
     /// Build acceleration structures in the model's order instead of sorting in space
     #[arg(long)]

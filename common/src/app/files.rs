@@ -44,6 +44,7 @@ pub fn check(args: &Args) -> Result<()> {
 /// All files the run reads and writes.
 fn all(args: &Args) -> Files {
     let Files { mut inputs, mut outputs, updated } = args.files.clone();
+    inputs.splice(0..0, args.sky.clone().map(|file| ("--sky", file)));
     inputs.splice(0..0, args.scene.clone().map(|file| ("--scene", file)));
     outputs.splice(0..0, args.out.clone().map(|file| ("--out", file)));
     Files { inputs, outputs, updated }

@@ -37,7 +37,7 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
         run.render(index)?;
         hooks.frame(&run, index)?;
         if let Some(animated) = &mut animated {
-            animated.add(&run.picture()?)?;
+            animated.add(&args.development.of(run.picture()?))?;
         }
         progress.step();
     }
@@ -48,8 +48,8 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
             Some(animated) => animated.save(out)?,
             None => {
                 let picture = picture.map_or_else(|| run.picture(), Ok)?;
-                picture.save(out)?;
                 output::warn(picture.not_finite().as_slice());
+                args.development.save(picture, out)?;
             }
         }
     }

@@ -17,19 +17,33 @@ pub struct Setup {
     pub options: SceneOptions,
     scene: Option<PathBuf>,
     scene_taken: Cell<bool>,
+    sky: Option<PathBuf>,
+    sky_taken: Cell<bool>,
 }
 
 impl Setup {
     /// The setup requested by arguments.
     pub fn new(args: &Args) -> Self {
         let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
-        Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+        Self {
+            options,
+            scene: args.scene.clone(),
+            scene_taken: Cell::new(false),
+            sky: args.sky.clone(),
+            sky_taken: Cell::new(false),
+        }
     }
 
     /// The file named by `--scene`, for a sample that accepts more than models.
     pub fn scene(&self) -> Option<&Path> {
         self.scene_taken.set(true);
         self.scene.as_deref()
+    }
+
+    /// The file named by `--sky`, for a sample that is lit by a picture.
+    pub fn sky(&self) -> Option<&Path> {
+        self.sky_taken.set(true);
+        self.sky.as_deref()
     }
 
     /// The scene named by `--scene`, else the chapter's own. Warnings about a file go to standard error.
@@ -72,13 +86,17 @@ impl Setup {
         Ok(scene)
     }
 
-    /// Fails if a scene was given to a sample that does not accept one.
+    /// Fails if a scene or a sky was given to a sample that does not accept one.
     pub(super) fn check(&self) -> Result<(), UsageError> {
-        if self.scene.is_some() && !self.scene_taken.get() {
-            let what = if paths::folder().is_none() { "chapter" } else { "program" };
-            return Err(UsageError(format!(
-                "this {what} brings its own scene and takes no --scene"
-            )));
+        let what = if paths::folder().is_none() { "chapter" } else { "program" };
+        for (thing, is_given, is_taken) in [
+            ("scene", self.scene.is_some(), self.scene_taken.get()),
+            ("sky", self.sky.is_some(), self.sky_taken.get()),
+        ] {
+            if is_given && !is_taken {
+                let line = format!("this {what} brings its own {thing} and takes no --{thing}");
+                return Err(UsageError(line));
+            }
         }
         Ok(())
     }

@@ -16,6 +16,7 @@ mod mtl_value;
 mod number;
 pub mod obj;
 mod obj_check;
+pub mod panorama;
 mod parts;
 mod polygon;
 mod positions;

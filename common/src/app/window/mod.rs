@@ -5,6 +5,7 @@
 
 mod bookmarks;
 mod compiler;
+mod darkroom;
 mod dots;
 mod facts;
 mod history;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use ash::vk;
 
-use crate::app::Picture;
+use crate::app::{Development, Picture};
 use crate::gpu::Image;
 use crate::output;
 
@@ -21,15 +21,20 @@ impl Shot {
     ///
     /// # Errors
     /// If the current folder is not writable.
-    pub fn take(&mut self, ready: bool, image: &Image, name: &str) -> Option<Result<PathBuf>> {
+    pub fn take(
+        &mut self,
+        ready: bool,
+        image: &Image,
+        (name, development): (&str, Development),
+    ) -> Option<Result<PathBuf>> {
         let ready = self.is_due && ready;
         self.is_due &= !ready;
         ready.then(|| {
             let path = free_name(Path::new("."), name)?;
             let vk::Extent2D { width, height } = image.extent;
             let picture = Picture { width, height, pixels: image.read()? };
-            picture.save(&path)?;
             output::warn(picture.not_finite().as_slice());
+            development.save(picture, &path)?;
             Ok(path)
         })
     }

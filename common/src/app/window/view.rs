@@ -13,7 +13,7 @@ use super::shot::Shot;
 use super::stepped::Stepped;
 use crate::app::playback::Clock;
 use crate::app::variants::Background;
-use crate::app::{Bands, Clicked, Sample, bands};
+use crate::app::{Bands, Clicked, Development, Sample, bands};
 use crate::gpu::{Gpu, Image, Timer};
 
 /// Time for tracing bands before the window looks for input again.
@@ -300,9 +300,13 @@ impl View {
     ///
     /// # Errors
     /// If the current folder is not writable.
-    pub fn take_picture(&mut self, name: &str) -> Option<Result<PathBuf>> {
+    pub fn take_picture(
+        &mut self,
+        name: &str,
+        development: Development,
+    ) -> Option<Result<PathBuf>> {
         let ready = self.pace.is_sharp() && self.bands.next().is_none();
-        self.shot.take(ready, &self.image, name)
+        self.shot.take(ready, &self.image, (name, development))
     }
 }
 

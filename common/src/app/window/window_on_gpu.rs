@@ -8,6 +8,7 @@ use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
 
 use super::Of;
+use super::darkroom::Darkroom;
 use super::painter::Painter;
 use super::style;
 use crate::app::check_validation;
@@ -16,6 +17,8 @@ use crate::gpu::{Gpu, Image, Swapchain, WindowHandles};
 /// The resources for drawing to a window. Dropped in this order, the window last.
 pub struct WindowOnGpu {
     painter: Painter,
+    /// Develops pictures, if that changes them.
+    darkroom: Option<Darkroom>,
     swapchain: Swapchain,
     egui: egui_winit::State,
     /// The device.
@@ -60,6 +63,7 @@ impl WindowOnGpu {
         context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
         Ok(Self {
             painter: Painter::new(&gpu, &swapchain)?,
+            darkroom: Darkroom::new(&gpu, args.development)?,
             swapchain,
             egui: egui_winit::State::new(
                 context,
@@ -115,7 +119,9 @@ impl WindowOnGpu {
         let scale = drawing.pixels_per_point;
         let triangles = self.egui.egui_ctx().tessellate(drawing.shapes, scale);
         let Some(target) = self.swapchain.acquire()? else { return Ok(Presented::NoImage) };
-        self.painter.paint(extent, picture, (&triangles, scale), target)?;
+        let (image, area) = picture;
+        let image = self.darkroom.as_mut().map_or(Ok(image), |darkroom| darkroom.develop(image))?;
+        self.painter.paint(extent, (image, area), (&triangles, scale), target)?;
         self.window.pre_present_notify();
         Ok(match (self.swapchain.present(target)?, self.swapchain.is_stale()) {
             (true, false) => Presented::Shown,
@@ -129,10 +135,10 @@ impl WindowOnGpu {
     /// # Errors
     /// If validation had something to say.
     pub fn close(self) -> Result<()> {
-        let Self { painter, swapchain, egui, gpu, window: _window } = self;
+        let Self { painter, darkroom, swapchain, egui, gpu, window: _window } = self;
         // Messages about what was never destroyed come when the device is.
         let validation = gpu.validation();
-        drop((painter, swapchain, egui, gpu));
+        drop((painter, darkroom, swapchain, egui, gpu));
         check_validation(&validation)
     }
 }

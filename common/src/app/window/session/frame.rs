@@ -54,7 +54,7 @@ impl Session {
         let area = self.area(extent, drawing.pixels_per_point);
         let stepped = self.view.step(area)?;
         self.learn();
-        if let Some(written) = self.view.take_picture(&self.facts.name) {
+        if let Some(written) = self.view.take_picture(&self.facts.name, self.args.development) {
             self.panel.tell(match written {
                 Ok(path) => format!("wrote {}", path.display()),
                 Err(error) => format!("{error:#}"),

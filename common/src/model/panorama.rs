@@ -1,0 +1,222 @@
+//! A picture of all directions: an EXR file, which is untrusted.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use anyhow::{Result, anyhow, ensure};
+use exr::meta::MetaData;
+use exr::prelude::{ReadChannels, ReadLayers, read as exr_reader};
+
+use super::text::{self, shown};
+
+/// Light from all directions: row 0 is up, and the middle column looks along -z, with x at its right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panorama {
+    /// Texels per row, all around.
+    pub width: u32,
+    /// Rows, from above to below.
+    pub height: u32,
+    /// Linear radiance, `width × height` times: finite, and not negative.
+    pub texels: Vec<[f32; 3]>,
+}
+
+/// Bytes of a file.
+const FILE_BYTES: u64 = 512 << 20;
+
+/// Width and height.
+const SIDE: usize = 16384;
+
+/// Number of texels: one more, and a random number of 24 bits no longer chooses each of them.
+const TEXELS: usize = 1 << 23;
+
+/// Bytes of one texel with all its channels, of which three are read.
+const TEXEL_BYTES: usize = 256;
+
+/// The brightest light that is kept, so that no sum over a picture is infinite.
+const BRIGHTEST: f32 = 1e18;
+
+impl Panorama {
+    /// Reads a file, and returns also what a user should know of it.
+    ///
+    /// # Errors
+    /// One line, if it is missing, too large, or not such a file.
+    pub fn open(path: &Path) -> Result<(Self, Vec<String>)> {
+        let name = shown(path).to_string();
+        let bytes = text::read(path, &name, FILE_BYTES)?;
+        Self::decode(&bytes, &name)
+    }
+
+    fn decode(bytes: &[u8], name: &str) -> Result<(Self, Vec<String>)> {
+        ensure!(
+            bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]),
+            "{name}: is not an EXR file; a sky is an .exr, because 8 bits cannot hold a sun"
+        );
+        let broken = |error: exr::error::Error| match error {
+            exr::error::Error::NotSupported(what) => {
+                anyhow!("{name}: is an EXR file of a kind that is not read: {what}")
+            }
+            _ => anyhow!("{name}: cannot be decoded, it is damaged or cut off; save it again"),
+        };
+        let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(broken)?;
+        for header in &meta.headers {
+            let (width, height) = (header.layer_size.width(), header.layer_size.height());
+            ensure!(
+                width.max(height) <= SIDE && width * height <= TEXELS,
+                "{name}: is {width} x {height} texels; at most {TEXELS} are read, such as 4096 x 2048"
+            );
+            ensure!(!header.deep, "{name}: has deep data, which are not read; save it flat");
+            let all = header.channels.bytes_per_pixel;
+            ensure!(
+                all <= TEXEL_BYTES,
+                "{name}: has {all} bytes per texel, at most {TEXEL_BYTES} are read"
+            );
+            let of_sky = header.channels.list.iter();
+            let of_sky =
+                of_sky.filter(|channel| ["R", "G", "B"].iter().any(|it| channel.name.eq(it)));
+            ensure!(
+                of_sky.count() == 3,
+                "{name}: has no channels R, G and B; save it as a picture of colours"
+            );
+        }
+        let image = exr_reader()
+            .no_deep_data()
+            .largest_resolution_level()
+            .rgb_channels(
+                |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
+                |(width, texels): &mut (usize, Vec<[f32; 3]>), at, (r, g, b): (f32, f32, f32)| {
+                    texels[at.y() * *width + at.x()] = [r, g, b];
+                },
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .non_parallel()
+            .from_buffered(Cursor::new(bytes))
+            .map_err(broken)?;
+        let size = image.layer_data.size;
+        let (_, texels) = image.layer_data.channel_data.pixels;
+        let (width, height) = (size.width() as u32, size.height() as u32);
+        Ok(Self { width, height, texels }.cleaned(name))
+    }
+
+    /// The picture without what is no light, and a line about it.
+    fn cleaned(mut self, name: &str) -> (Self, Vec<String>) {
+        let mut warnings = Vec::new();
+        let (width, height) = (self.width, self.height);
+        if width != 2 * height {
+            warnings.push(format!(
+                "{name}: is {width} x {height} texels, stretched over all directions; a sky is twice as wide as high"
+            ));
+        }
+        let is_light = |value: &f32| (0.0..=BRIGHTEST).contains(value);
+        let is_wrong = |texel: &[f32; 3]| !texel.iter().all(is_light);
+        let mut wrong = self.texels.iter().enumerate().filter(|(_, texel)| is_wrong(texel));
+        if let Some((first, texel)) = wrong.next() {
+            let (x, y) = (first % width as usize, first / width as usize);
+            let count = 1 + wrong.count();
+            warnings.push(format!(
+                "{name}: texel {x}, {y} is {texel:?}; what is negative, infinite or no number is 0 ({count} in all)"
+            ));
+        }
+        for texel in &mut self.texels {
+            *texel = texel.map(|value| if is_light(&value) { value } else { 0.0 });
+        }
+        (self, warnings)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::Picture;
+
+    /// The bytes of an EXR file.
+    fn file(width: u32, height: u32, texel: impl Fn(u32) -> [f32; 3]) -> Vec<u8> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        let pixel = |i| {
+            let [r, g, b] = texel(i);
+            [r, g, b, 1.0]
+        };
+        let pixels = (0..width * height).map(pixel).collect();
+        Picture { width, height, pixels }.save(&path).unwrap();
+        std::fs::read(path).unwrap()
+    }
+
+    fn error(bytes: &[u8]) -> String {
+        let error = format!("{:#}", Panorama::decode(bytes, "a.exr").unwrap_err());
+        assert!(!error.contains('\n') && error.starts_with("a.exr: "), "{error}");
+        error
+    }
+
+    #[test]
+    fn texels_are_read_to_the_bit() {
+        let texel = |i: u32| [i as f32 * 0.1, 1e5, 1e-30];
+        let (read, warnings) = Panorama::decode(&file(64, 32, texel), "a.exr").unwrap();
+        assert_eq!((read.width, read.height, warnings.len()), (64, 32, 0));
+        assert_eq!(read.texels, (0..64 * 32).map(texel).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_is_no_light_is_black_and_counted() {
+        let wrong = [f32::NAN, f32::INFINITY, -1.0, -0.0];
+        let bytes = file(8, 4, |i| [1.0, wrong.get(i as usize).copied().unwrap_or(2.0), 3.0]);
+        let (read, warnings) = Panorama::decode(&bytes, "a.exr").unwrap();
+        assert_eq!(read.texels[0], [1.0, 0.0, 3.0]);
+        assert_eq!(read.texels[2], [1.0, 0.0, 3.0]);
+        assert_eq!(read.texels[4], [1.0, 2.0, 3.0]);
+        assert_eq!(
+            warnings,
+            [
+                "a.exr: texel 0, 0 is [1.0, NaN, 3.0]; what is negative, infinite or no number is 0 (3 in all)"
+            ]
+        );
+    }
+
+    #[test]
+    fn another_shape_has_a_warning() {
+        for (width, height) in [(1, 1), (3, 3)] {
+            let (_, warnings) = Panorama::decode(&file(width, height, |_| [1.0; 3]), "a").unwrap();
+            assert!(warnings[0].contains("twice as wide as high"), "{warnings:?}");
+        }
+    }
+
+    #[test]
+    fn a_file_of_another_kind_is_refused() {
+        for bytes in [&b""[..], b"\x89PNG\r\n", b"P3 1 1", b"\xff\xd8\xff"] {
+            assert!(error(bytes).contains("is not an EXR file"));
+        }
+    }
+
+    #[test]
+    fn a_file_cut_off_anywhere_is_refused() {
+        let bytes = file(32, 16, |i| [i as f32; 3]);
+        for end in (4..bytes.len()).step_by(7) {
+            error(&bytes[..end]);
+        }
+    }
+
+    #[test]
+    fn no_changed_byte_is_a_panic() {
+        let bytes = file(16, 8, |i| [i as f32; 3]);
+        for at in 4..bytes.len() {
+            for change in [0xff, 0x80, 0x01] {
+                let mut bytes = bytes.clone();
+                bytes[at] ^= change;
+                let _ = Panorama::decode(&bytes, "a.exr");
+            }
+        }
+    }
+
+    #[test]
+    fn a_size_is_checked_before_it_is_believed() {
+        let mut bytes = file(16, 8, |_| [1.0; 3]);
+        let name = b"dataWindow\0box2i\0";
+        let at = bytes.windows(name.len()).position(|it| it == name).unwrap() + name.len() + 4;
+        for (last, right) in [(1u32 << 20, 16), (16000, 16000), (i32::MAX as u32, i32::MAX as u32)]
+        {
+            bytes[at + 8..at + 12].copy_from_slice(&last.to_le_bytes());
+            bytes[at + 12..at + 16].copy_from_slice(&(right as u32).to_le_bytes());
+            error(&bytes);
+        }
+    }
+}
