@@ -87,7 +87,7 @@ const ESTIMATE: &str = "
     float cosine = (float(at.y) + 0.5) / 8.0;
     vec3 view = vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine);
     Microfacets surface = microfacets(vec3(1.0), ROUGHNESS, 1.0, view);
-    for (uint i = 0; i < 512; i++) {
+    for (uint i = 0; i < 1024; i++) {
         vec4 u = random(at, i, 0, 9), w = random(at, i, 0, 10);
         float light = 0.0;
         if (SAMPLER != SAMPLER_BOUNCES) {
@@ -98,7 +98,7 @@ const ESTIMATE: &str = "
         Texel texel = texel_at(push.sky, push.rotation, next.direction);
         Path path = Path(at, vec3(0.0), next.weight, 1, density_of(surface, w.x, next), 0);
         light += next.weight.r * part_by_bounce(path, texel.density) * texel.radiance.r;
-        answer += vec4(light) / 512.0;
+        answer += vec4(light) / 1024.0;
     }";
 
 #[test]
@@ -114,21 +114,23 @@ fn a_single_texel_lights_as_in_f64() {
     write_sky(&file, &sky);
     let file = file.to_str().expect("plain letters");
     for roughness in [0.3f32, 0.8] {
-        for sampler in SAMPLERS {
+        // From a smooth surface so few bounces meet the texel that their scatter says nothing of their error.
+        let rare = usize::from(roughness < 0.5);
+        for sampler in &SAMPLERS[rare..] {
             let sampler_set = format!("sampling={sampler}");
             let sets = set(&[&sampler_set]);
             let mut arguments: Vec<&str> = sets.iter().map(String::as_str).collect();
             arguments.extend(["--sky", file]);
             let declarations = format!("const float ROUGHNESS = {roughness};");
-            let shown = evaluate(&declarations, ESTIMATE, "32x8", &arguments);
+            let shown = evaluate(&declarations, ESTIMATE, "256x8", &arguments);
             for row in 0..8 {
                 let cosine = (row as f64 + 0.5) / 8.0;
                 let view = DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
                 let value = 100.0 * integral(&sky, f64::from(roughness).powi(2), view);
-                let pixels = &shown.pixels[row * 32..(row + 1) * 32];
+                let pixels = &shown.pixels[row * 256..(row + 1) * 256];
                 let values: Vec<f64> = pixels.iter().map(|pixel| pixel[0].into()).collect();
                 let Estimate { mean, confidence } = Estimate::of(&values);
-                // 512 additions in floats.
+                // 1024 additions in floats.
                 let allowed = confidence + 1e-4 * value;
                 println!(
                     "{roughness}, {sampler}, {cosine:.2}: {mean:.5} ± {confidence:.5}, {value:.5}"
