@@ -1,6 +1,6 @@
 //! 29_emitters: three estimators of the light from emitters agree with each other and with closed forms.
 
-mod caught;
+pub mod caught;
 mod choosing;
 mod closed_forms;
 mod directions;

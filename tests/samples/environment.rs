@@ -1,20 +1,16 @@
 //! 46_environment: four samplers find the same light, densities are exact, and a single texel lights as in f64.
 
-#[allow(dead_code, reason = "29 also makes tables of checked weights")]
-#[path = "../../samples/29_emitters/alias.rs"]
-mod alias;
 mod light;
 mod plots;
 #[allow(dead_code, reason = "the chapter uploads it")]
 #[path = "../../samples/46_environment/sky.rs"]
 mod sky;
 mod table;
-#[allow(dead_code, reason = "45 computes albedos by it")]
-#[path = "rough_metal/twin.rs"]
-mod twin;
 
 use std::path::Path;
 
+use super::emitters::caught::alias;
+use super::rough_metal::twin;
 use common::app::Picture;
 use common::model::panorama::Panorama;
 use common::scene::assets;

@@ -7,7 +7,7 @@ mod furnace;
 mod mitsuba;
 mod models;
 mod plots;
-mod twin;
+pub mod twin;
 
 use common::app::Picture;
 use tempfile::TempDir;

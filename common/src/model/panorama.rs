@@ -215,7 +215,7 @@ mod tests {
         for (last, right) in [(1u32 << 20, 16), (16000, 16000), (i32::MAX as u32, i32::MAX as u32)]
         {
             bytes[at + 8..at + 12].copy_from_slice(&last.to_le_bytes());
-            bytes[at + 12..at + 16].copy_from_slice(&(right as u32).to_le_bytes());
+            bytes[at + 12..at + 16].copy_from_slice(&right.to_le_bytes());
             error(&bytes);
         }
     }

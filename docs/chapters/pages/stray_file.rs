@@ -54,7 +54,9 @@ fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) 
             let below = file.trim_start_matches("shaders/");
             let own =
                 texts.below(&folder.replacen("shaders/", "samples/", 1), &format!("\"{name}\""));
-            (own || texts.code_says(&format!("\"{below}\"")), "no program names it")
+            // A compute shader of the framework is named without its folder.
+            let common = folder == "shaders/common" && texts.code_says(&format!("\"{name}\""));
+            (own || common || texts.code_says(&format!("\"{below}\"")), "no program names it")
         }
         // Their own check reports faulty ones.
         "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),

@@ -10,7 +10,7 @@ use super::{NAME, chapter};
 
 #[allow(dead_code)]
 #[path = "../../../samples/29_emitters/alias.rs"]
-mod alias;
+pub mod alias;
 #[allow(dead_code)]
 #[path = "../../../samples/11_path_tracing/closed_forms.rs"]
 mod closed_forms;

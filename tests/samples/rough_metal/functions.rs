@@ -1,5 +1,7 @@
 //! The functions of the shaders, called with lists of inputs.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec3, Vec3};
 
 use super::{evaluate, evaluate_in, set, twin};
@@ -31,7 +33,7 @@ fn direction(cosine: f64, angle: f64) -> DVec3 {
 
 fn pairs(count: usize) -> Vec<[Vec3; 2]> {
     let unit = |i: usize, a: f64, b: f64| {
-        direction(0.02 + 0.98 * spread(i, a), 6.283 * spread(i, b)).as_vec3()
+        direction(0.02 + 0.98 * spread(i, a), TAU * spread(i, b)).as_vec3()
     };
     let pair = |i: usize| [unit(i, 0.618034, 0.754878), unit(i, 0.569840, 0.819173)];
     (0..count).map(pair).collect()
@@ -79,9 +81,9 @@ fn the_brdf_is_that_of_f64_and_the_same_both_ways() {
 fn highlight(roughness: f64, count: usize) -> Vec<[Vec3; 2]> {
     let alpha = roughness * roughness;
     let pair = |i: usize| {
-        let view = direction(0.2 + 0.8 * spread(i, 0.618034), 6.283 * spread(i, 0.754878));
+        let view = direction(0.2 + 0.8 * spread(i, 0.618034), TAU * spread(i, 0.754878));
         let tilt = (3.0 * alpha * spread(i, 0.569840)).atan();
-        let facet = direction(tilt.cos(), 6.283 * spread(i, 0.819173));
+        let facet = direction(tilt.cos(), TAU * spread(i, 0.819173));
         [view.as_vec3(), (2.0 * view.dot(facet) * facet - view).as_vec3()]
     };
     (0..count).map(pair).collect()
