@@ -31,7 +31,7 @@ vec3 direction_in(SkyAddresses sky, float rotation, uint texel, vec2 u) {
     float y = row.top - u.y * row.height;
     float radius = sqrt(max((1.0 - y) * (1.0 + y), 0.0));
     // From -pi to pi: beyond, Vulkan says nothing of a sine's error.
-    float angle = TURN * (fract((float(at.x) + u.x) / float(sky.size.x) - rotation) - 0.5);
+    float angle = 6.283185 * (fract((float(at.x) + u.x) / float(sky.size.x) - rotation) - 0.5);
     return normalize(vec3(radius * sin(angle), y, -radius * cos(angle)));
 }
 // ANCHOR_END: choose
@@ -48,7 +48,7 @@ SkySample sky_sample(SkyAddresses sky, float rotation, vec2 u, vec2 within) {
     if (SAMPLER == SAMPLER_UNIFORM) {
         float y = 1.0 - 2.0 * within.y;
         float radius = sqrt(max((1.0 - y) * (1.0 + y), 0.0));
-        float angle = TURN * (within.x - 0.5);
+        float angle = 6.283185 * (within.x - 0.5);
         vec3 direction = normalize(vec3(radius * sin(angle), y, -radius * cos(angle)));
         return SkySample(direction, texel_at(sky, rotation, direction).radiance, 1.0 / (2.0 * TURN));
     }

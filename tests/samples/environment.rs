@@ -18,6 +18,7 @@ use run::{
     Chapter, bits, command, copy_of_shaders, refused, render_by, replace_line, same_colors,
     set_arguments,
 };
+use tempfile::TempDir;
 
 const NAME: &str = "46_environment";
 
@@ -42,7 +43,17 @@ fn write_sky(path: &Path, sky: &Panorama) {
 /// The results of this chapter's functions, one per pixel: `body` reads the pixel from `uvec2 at` and sets `vec4
 /// answer`; `declarations` come before it. The facets' light is that of 45 without compensation.
 fn evaluate(declarations: &str, body: &str, size: &str, arguments: &[&str]) -> Picture {
-    let folder = copy_of_shaders();
+    evaluate_in(&copy_of_shaders(), declarations, body, size, arguments)
+}
+
+/// As [`evaluate`], with these shaders.
+fn evaluate_in(
+    folder: &TempDir,
+    declarations: &str,
+    body: &str,
+    size: &str,
+    arguments: &[&str],
+) -> Picture {
     replace_line(
         folder.path(),
         "46_environment/push.glsl",

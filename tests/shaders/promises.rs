@@ -116,8 +116,9 @@ fn no_angle_is_beyond_pi() {
     // Beyond it, Vulkan promises nothing about sin() and cos(). The shaders that call them are tested below.
     let known = [
         "14_animation/flag.comp",
-        // The module of its chapter tests this one.
+        // The modules of their chapters test these two.
         "45_rough_metal/microfacet.glsl",
+        "46_environment/sky_map.glsl",
         "common/aperture.glsl",
         "common/disk.glsl",
         "common/sphere_light.glsl",

@@ -2,8 +2,9 @@
 
 use super::alias::UNITS;
 use super::sky::{SkyTable, Sum, add, divided, solid_angle};
-use super::{evaluate, own_sky, set};
+use super::{evaluate, evaluate_in, own_sky, set};
 use common::model::panorama::Panorama;
+use run::{copy_of_shaders, replace_line};
 
 /// The weights of a sky: luminance times solid angle.
 fn weights(sky: &Panorama) -> Vec<f64> {
@@ -70,6 +71,35 @@ fn a_direction_in_a_texel_finds_that_texel() {
     let around = 2.0 * std::f64::consts::PI / f64::from(sky.width);
     let all: f64 = shown.pixels.iter().map(|p| f64::from(p[1]) * f64::from(p[2]) * around).sum();
     assert!((all - 1.0).abs() < 1.2e-7, "{all}");
+}
+
+#[test]
+fn no_direction_by_chance_has_an_angle_beyond_pi() {
+    // Beyond it, Vulkan promises nothing about sin() and cos(): these macros record the largest of their angles.
+    let noting = "float widest = 0.0;
+        float noted(float angle) { widest = max(widest, abs(angle)); return angle; }
+        #define cos(angle) cos(noted(angle))
+        #define sin(angle) sin(noted(angle))
+        #include \"sky_map.glsl\"";
+    // The numbers that complete a turn, and some between, in the outermost texels.
+    let body =
+        "float u = at.x < 32 ? float(16777215 - at.x) / 16777216.0 : float(at.x - 32) / 96.0;
+        uint last = push.sky.size.x - 1;
+        vec3 direction = SAMPLER == SAMPLER_UNIFORM
+            ? sky_sample(push.sky, 0.0, vec2(0.5), vec2(u, 0.5)).direction
+            : direction_in(push.sky, 0.0, at.y == 0 ? 0 : last, vec2(u, 0.5));
+        answer = vec4(widest, direction);";
+    for sampling in ["sampling=map", "sampling=uniform"] {
+        let folder = copy_of_shaders();
+        let include = "#include \"sky_map.glsl\"";
+        replace_line(folder.path(), "46_environment/camera.rgen", include, noting);
+        let sets = set(&[sampling]);
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        let shown = evaluate_in(&folder, "", body, "128x2", &sets);
+        let widest = shown.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
+        println!("{sampling}: widest angle {widest}");
+        assert!(widest > 3.0 && widest <= std::f64::consts::PI, "{sampling}: {widest}");
+    }
 }
 
 /// What a sum in floats is off by, for the day divided into more and more texels.
