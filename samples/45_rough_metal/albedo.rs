@@ -11,7 +11,7 @@ common::shader_struct! {
     pub struct Albedo {
         /// The part of the light that facets lose which reflect everything.
         pub lost: f32,
-        /// What facets reflect which reflect the fifth power, above what a mirror does.
+        /// The reflection of facets that reflect the fifth power, above a mirror's.
         pub more: f32,
     }
 }
@@ -106,7 +106,7 @@ impl DirectionRule {
         Self { around: around.collect(), outward: outward.collect() }
     }
 
-    /// What facets lose that reflect everything, and what those reflect of the fifth power more than a mirror.
+    /// The loss of facets that reflect everything, and the surplus over a mirror of those that reflect the fifth power.
     pub fn differences(&self, alpha: f64, cosine: f64) -> [f64; 2] {
         let [all, fifth] = self.albedos(alpha, cosine);
         [1.0 - all, fifth - (1.0 - cosine).powi(5)]

@@ -66,7 +66,7 @@ struct Demo {
     sums: Buffer,
 }
 
-/// What the table of the sky depends on.
+/// The settings that the table of the sky depends on.
 #[derive(Clone, Copy, PartialEq)]
 struct SkyLook {
     name: SkyName,

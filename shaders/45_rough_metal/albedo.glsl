@@ -1,4 +1,4 @@
-// How much light the facets reflect in all, from a table: the directional albedo.
+// The light that the facets reflect in all, from a table: the directional albedo.
 
 // ANCHOR: albedo
 // The table has as many rows, for roughness, as columns, for the angle.

@@ -13,7 +13,7 @@ const float SMOOTH = 1e-6;
 // No view is lower, so that nothing is divided by zero.
 const float GRAZING = 1e-5;
 
-// What an insulator reflects head-on (glTF 2.0, section 3.9.2).
+// The reflectance of an insulator head-on (glTF 2.0, section 3.9.2).
 const vec3 INSULATOR = vec3(0.04);
 
 // The frame of a normal, which is its third axis (Duff et al., JCGT 6:1, 2017).
@@ -161,7 +161,7 @@ vec3 visible_facet(float alpha, vec3 view, float bound, vec2 u) {
     return normalize(vec3(alpha * facet.xy, max(facet.z, 1e-6)));
 }
 
-// How far down the cap has to reach: every facet beyond mirrors the view into the surface (Eto and Tokuyoshi 2023).
+// The lower edge of the cap: every facet beyond it mirrors the view into the surface (Eto and Tokuyoshi 2023).
 float bound_of(float alpha, vec3 view) {
     float s = 1.0 + length(view.xy);
     return (1.0 - alpha * alpha) * s * s / (s * s + alpha * alpha * view.z * view.z);

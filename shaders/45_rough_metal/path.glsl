@@ -104,7 +104,7 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
         ray.direction = next.is_mirrored ? mirrored(ray.direction, hit.normal, hit.face)
             : kept_above(frame * next.direction, hit.face);
         if (SHOW == SHOW_FACETS) {
-            // How many facets mirror the sun to the eye, relative to the densest.
+            // The density of facets that mirror the sun to the eye, relative to the densest.
             vec3 facet = half_way(surface.view, light);
             path.color = vec3(PI * surface.alpha * surface.alpha * distribution(surface.alpha, facet));
             path.throughput = vec3(0.0);

@@ -23,7 +23,7 @@ float density_of(Microfacets surface, float choice, Bounce next) {
 // ANCHOR_END: density
 
 // ANCHOR: balanced
-// What a shadow ray counts of the light from a direction: BRDF times cosine, divided by the density of shadow rays,
+// The weight of a shadow ray for the light from a direction: BRDF times cosine, divided by the density of shadow rays,
 // and by that of bounces if these find the same light.
 vec3 balanced(Microfacets surface, vec3 light, float density) {
     if (light.z <= 0.0) {

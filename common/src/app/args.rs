@@ -83,7 +83,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub sky: Option<PathBuf>,
 
-    /// How a PNG and the window show the picture; an EXR stays as it was rendered
+    /// Exposure and tone of a PNG and of the window; an EXR stays as it was rendered
     #[command(flatten)]
     pub development: Development,
 

@@ -6,7 +6,7 @@ use anyhow::Result;
 
 use super::{Format, Picture};
 
-/// How a PNG and the window show linear light. An EXR stays as it was rendered.
+/// The way from linear light to a PNG and to the window. An EXR stays as it was rendered.
 #[derive(Clone, Copy, Debug, PartialEq, clap::Args)]
 #[group(skip)]
 pub struct Development {
