@@ -10,13 +10,12 @@ mod table;
 use std::path::Path;
 
 use super::emitters::caught::alias;
-use super::rough_metal::twin;
+use super::rough_metal::{self, Estimate, brightness, difference, twin};
 use common::app::Picture;
 use common::model::panorama::Panorama;
 use common::scene::assets;
 use run::{
-    Chapter, bits, command, copy_of_shaders, refused, render_by, replace_line, same_colors,
-    set_arguments,
+    Chapter, bits, command, copy_of_shaders, refused, replace_line, same_colors, set_arguments,
 };
 use tempfile::TempDir;
 
@@ -60,42 +59,7 @@ fn evaluate_in(
         "const bool COMPENSATION = true;",
         "const bool COMPENSATION = false;",
     );
-    let file = folder.path().join(NAME).join("camera.rgen");
-    let text = std::fs::read_to_string(&file).expect("it is there");
-    let (head, _) = text.split_once("// One path per pixel").expect("a comment above main");
-    let text = format!(
-        "{head}\n{declarations}\nvoid main() {{ uvec2 at = pixel_id(); vec4 answer = vec4(0.0);\n{body}\n\
-         imageStore(picture, ivec2(at), answer); }}"
-    );
-    std::fs::write(&file, text).expect("a copy can be written");
-    render_by(command(NAME).env("SHADERS", folder.path()), size, arguments).picture
-}
-
-/// The mean of values, with four standard errors, which are exceeded at random once in 16,000 times.
-struct Estimate {
-    mean: f64,
-    confidence: f64,
-}
-
-impl Estimate {
-    fn of(values: &[f64]) -> Self {
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        Self { mean, confidence: 4.0 * (squares / (count - 1.0) / count).sqrt() }
-    }
-
-    /// The difference of two pictures by random numbers of their own.
-    fn of_difference(one: &Picture, other: &Picture) -> Self {
-        let pairs = brightness(one).into_iter().zip(brightness(other));
-        Self::of(&pairs.map(|(one, other)| one - other).collect::<Vec<_>>())
-    }
-}
-
-/// One number per pixel: the mean of its colours.
-fn brightness(picture: &Picture) -> Vec<f64> {
-    let mean = |pixel: &[f32; 4]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
-    picture.pixels.iter().map(mean).collect()
+    rough_metal::evaluate_in((NAME, folder), declarations, body, size, arguments)
 }
 
 #[test]
@@ -115,7 +79,7 @@ fn a_furnace_is_that_of_45() {
     let rough = picture("45_rough_metal", &["roughness=0.6"]);
     for sampler in &SAMPLERS[1..] {
         let own = picture(NAME, &[&format!("sampling={sampler}"), "seed=1", "roughness=0.6"]);
-        let Estimate { mean, confidence } = Estimate::of_difference(&own, &rough);
+        let Estimate { mean, confidence } = difference(&own, &rough);
         println!("{sampler} - 45: {mean:.5} ± {confidence:.5}");
         assert!(mean.abs() < confidence, "{sampler}: {mean} ± {confidence}");
     }

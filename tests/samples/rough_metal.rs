@@ -23,18 +23,18 @@ fn chapter(size: &str) -> Chapter {
 /// The results of this chapter's functions, one per pixel: `body` reads the pixel from `uvec2 at` and sets `vec4
 /// answer`; `declarations` come before it.
 fn evaluate(declarations: &str, body: &str, size: &str, arguments: &[&str]) -> Picture {
-    evaluate_in(&copy_of_shaders(), declarations, body, size, arguments)
+    evaluate_in((NAME, &copy_of_shaders()), declarations, body, size, arguments)
 }
 
-/// The same with a copy of the shaders that a test has changed.
-fn evaluate_in(
-    folder: &TempDir,
+/// The same for a chapter, with a copy of the shaders that a test has changed.
+pub fn evaluate_in(
+    (name, folder): (&str, &TempDir),
     declarations: &str,
     body: &str,
     size: &str,
     arguments: &[&str],
 ) -> Picture {
-    let file = folder.path().join(NAME).join("camera.rgen");
+    let file = folder.path().join(name).join("camera.rgen");
     let text = std::fs::read_to_string(&file).expect("it is there");
     let (head, _) = text.split_once("// One path per pixel").expect("a comment above main");
     let text = format!(
@@ -42,17 +42,17 @@ fn evaluate_in(
          imageStore(picture, ivec2(at), answer); }}"
     );
     std::fs::write(&file, text).expect("a copy can be written");
-    render_by(command(NAME).env("SHADERS", folder.path()), size, arguments).picture
+    render_by(command(name).env("SHADERS", folder.path()), size, arguments).picture
 }
 
 /// The mean of values, with four standard errors, which are exceeded at random once in 16,000 times.
-struct Estimate {
-    mean: f64,
-    confidence: f64,
+pub struct Estimate {
+    pub mean: f64,
+    pub confidence: f64,
 }
 
 impl Estimate {
-    fn of(values: &[f64]) -> Self {
+    pub fn of(values: &[f64]) -> Self {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
@@ -61,7 +61,7 @@ impl Estimate {
 }
 
 /// One number per pixel: the mean of its colours.
-fn brightness(picture: &Picture) -> Vec<f64> {
+pub fn brightness(picture: &Picture) -> Vec<f64> {
     let mean = |pixel: &[f32; 4]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
     picture.pixels.iter().map(mean).collect()
 }
@@ -83,7 +83,7 @@ fn other_materials_look_as_in_11() {
 }
 
 /// The difference of two pictures by random numbers of their own: its mean, and four standard errors.
-fn difference(one: &Picture, other: &Picture) -> Estimate {
+pub fn difference(one: &Picture, other: &Picture) -> Estimate {
     let pairs = brightness(one).into_iter().zip(brightness(other));
     Estimate::of(&pairs.map(|(one, other)| one - other).collect::<Vec<_>>())
 }

@@ -5,7 +5,7 @@ use common::model::panorama::Panorama;
 use glam::DVec3;
 
 use super::sky::solid_angle;
-use super::{Estimate, SAMPLERS, chapter, evaluate, set, twin, write_sky};
+use super::{Estimate, SAMPLERS, chapter, difference, evaluate, set, twin, write_sky};
 use run::shaders_with;
 
 /// Rough spheres in the evening: on smooth ones, uniform directions find so much in so few samples that their scatter
@@ -30,7 +30,7 @@ fn four_samplers_have_one_mean() {
     let both = evening("both", 0, None);
     for (seed, sampler) in (1..).zip(&SAMPLERS[..3]) {
         let other = evening(sampler, seed, None);
-        let Estimate { mean, confidence } = Estimate::of_difference(&other, &both);
+        let Estimate { mean, confidence } = difference(&other, &both);
         println!("{sampler} - both: {mean:.6} ± {confidence:.6}");
         assert!(mean.abs() < confidence, "{sampler} - both: {mean} ± {confidence}");
     }
@@ -41,7 +41,7 @@ fn four_samplers_have_one_mean() {
         "texel.radiance, texel.density * push.sky.rows.at[chosen / sky.size.x].height * float(sky.size.y) / 3.14159);",
     );
     let wrong = evening("map", 3, Some(shaders.path()));
-    let Estimate { mean, confidence } = Estimate::of_difference(&wrong, &both);
+    let Estimate { mean, confidence } = difference(&wrong, &both);
     println!("without the sine - both: {mean:.6} ± {confidence:.6}");
     assert!(mean.abs() > confidence, "a wrong density passes: {mean} ± {confidence}");
 }

@@ -102,7 +102,7 @@ fn no_direction_by_chance_has_an_angle_beyond_pi() {
     }
 }
 
-/// What a sum in floats is off by, for the day divided into more and more texels.
+/// The error of a sum in floats, for the day divided into more and more texels.
 pub fn offs(cut: u32) -> [f64; 2] {
     let sky = divided(&own_sky("day.exr"), cut).expect("it fits");
     let weights = weights(&sky);

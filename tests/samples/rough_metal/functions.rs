@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec3, Vec3};
 
-use super::{evaluate, evaluate_in, set, twin};
+use super::{NAME, evaluate, evaluate_in, set, twin};
 use run::{copy_of_shaders, expected, replace_line};
 
 /// Pairs of view and light, unit vectors above a surface, as constants of a shader.
@@ -197,7 +197,7 @@ fn no_facet_by_chance_has_an_angle_beyond_pi() {
         vec3 view = vec3(0.8, 0.0, 0.6);
         vec3 facet = at.x % 2 == 0 ? random_facet(0.5, numbers) : visible_facet(0.5, view, 1.0, numbers);
         answer = vec4(widest, facet);";
-    let shown = evaluate_in(&folder, "", body, "64x128", &[]);
+    let shown = evaluate_in((NAME, &folder), "", body, "64x128", &[]);
     let widest = shown.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
     println!("widest angle: {widest}");
     assert!(widest > 3.0 && widest <= std::f64::consts::PI, "{widest}");

@@ -81,7 +81,7 @@ fn table_errors() -> [f64; 2] {
     most
 }
 
-/// What the means, linear between rows, change in a furnace because they are not the means of what is looked up:
+/// The error of a furnace by the means, linear between rows, because they are not the means of what is looked up:
 /// for metal, and for an insulator's base.
 fn mean_errors() -> [f64; 2] {
     let table = AlbedoTable::new();
@@ -113,9 +113,9 @@ fn mean_errors() -> [f64; 2] {
     most
 }
 
-/// How far a furnace of insulators, and one of metal, may be from 1.
+/// The bounds on a furnace of insulators and on one of metal: their distances from 1.
 ///
-/// What facets reflect is sampled; what the table adds is off by the table's error: for metal that of the loss, for
+/// The light of facets is sampled; that of the table is off by the table's error: for metal that of the loss, for
 /// an insulator those of both entries, weighted by 0.04 and 0.96. The means add their own.
 static BOUNDS: LazyLock<[f64; 2]> = LazyLock::new(|| {
     let ([lost, more], [metal, base]) = (table_errors(), mean_errors());
