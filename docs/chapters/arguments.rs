@@ -105,8 +105,8 @@ pub enum Command {
         #[arg(long, conflicts_with = "names")]
         changed: bool,
     },
-    /// Run every chapter on this device, compare it with its golden picture, and write a report card; exit code
-    /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer
+    /// Run every chapter on this device, look for known faults of drivers, measure what accuracy costs, and write a
+    /// report card to send in; exit code 1 if anything fails. At most three minutes, once everything is built
     Survey {
         /// Use this device: a number of --list-devices or a part of its name
         #[arg(long, value_name = "N|NAME")]
@@ -115,9 +115,16 @@ pub enum Command {
         #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
         out: PathBuf,
         /// Stop a program after this many whole seconds, 1 to 86400
-        #[arg(long, value_name = "SECONDS", default_value_t = 180, value_parser = limit,
+        #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = limit,
             allow_hyphen_values = true)]
         limit: u64,
+        /// Also measure frame times and random rays, and take the compilers' figures, for as long as it takes
+        #[arg(long)]
+        full: bool,
+        /// At the end, also trace rays through a top level without instances, which has hung machines: save your work
+        /// first
+        #[arg(long)]
+        risky: bool,
         /// Also measure what the device's own traversal computes: half a minute on a software driver
         #[arg(long)]
         atlas: bool,

@@ -112,11 +112,13 @@ fn run(arguments: &Arguments) -> Result<()> {
             let list: String = start.write()?.iter().map(|file| format!("{file}\n")).collect();
             print(&format!("{list}\nNext:\n{}", start.next()))
         }
-        Command::Survey { device, out, limit, atlas, arithmetic, list } => {
+        Command::Survey { device, out, limit, full, risky, atlas, arithmetic, list } => {
             let programs = Programs::beside_this(&project)?;
             let limit = Limit::waited(Duration::from_secs(*limit));
-            let atlas = atlas.then(|| arithmetic.name());
-            let survey = Survey { programs: &programs, device: device.as_deref(), limit, atlas };
+            let mut survey = Survey::new(&programs, limit, *full);
+            survey.device = device.as_deref();
+            survey.atlas = atlas.then(|| arithmetic.name());
+            survey.risky = *risky;
             if *list { print(&survey.list()) } else { survey.run(out) }
         }
         Command::Hard(arguments) => arguments.run(&project),

@@ -1,4 +1,5 @@
-//! The laboratory's work without a picture: hard cases through every rung, measurements, and the atlas.
+//! The laboratory's work without a picture: hard cases through every rung, measurements, the atlas, and known faults
+//! of drivers.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +18,7 @@ use crate::families::Draw;
 use crate::ladder::Primitive;
 use crate::measure::Plan;
 use crate::plot::Plot;
-use crate::{Demo, hard, measure};
+use crate::{Demo, faults, hard, measure};
 
 /// Arguments of the laboratory, beside every sample's.
 #[derive(clap::Args)]
@@ -35,6 +36,15 @@ pub struct Lab {
     /// write atlas.json and atlas.md to a folder
     #[arg(long, value_name = "FOLDER", group = "work")]
     atlas: Option<PathBuf>,
+
+    /// Look for known faults of drivers: boxes lost after an update, wrong hit attributes; exit 1 if this device has
+    /// one
+    #[arg(long, group = "work", conflicts_with_all = ["tops", "rays"])]
+    faults: bool,
+
+    /// With --faults: look for the one that has hung machines instead, a top level without instances
+    #[arg(long, requires = "faults")]
+    risky: bool,
 
     /// With --cases or --measure: only the rungs that must be right
     #[arg(long, requires = "work", conflicts_with = "atlas")]
@@ -101,12 +111,13 @@ fn prepare(folder: &Path, files: &[&str]) -> Result<()> {
 }
 
 impl Lab {
-    /// Runs the requested work: hard cases, measurements or the atlas, or else a picture.
+    /// Runs the requested work: hard cases, measurements, the atlas or known faults, or else a picture.
     ///
     /// # Errors
     /// Whatever went wrong.
     pub fn start(&self, args: &Args, options: Options) -> Result<()> {
-        let is_asked = self.cases.is_some() || self.measure.is_some() || self.atlas.is_some();
+        let files = [&self.cases, &self.measure, &self.atlas];
+        let is_asked = self.faults || files.iter().any(|file| file.is_some());
         if !is_asked || args.list_controls {
             return instruments::start::<Demo>(env!("CARGO_BIN_NAME"), args, options);
         }
@@ -128,6 +139,9 @@ impl Lab {
         if let Some(cases) = &self.cases {
             hard::run(&gpu, cases, self.tops, report.as_deref())?;
         }
+        if self.faults {
+            faults::run(&gpu, self.risky, report.as_deref())?;
+        }
         if let Some(folder) = &self.measure {
             self.measure(&gpu, folder)?;
         }
@@ -148,22 +162,24 @@ impl Lab {
     /// Refuses what goes with a picture alone.
     fn check(&self, args: &Args, options: &Options) -> Result<(), UsageError> {
         if options.compare.compare.is_some() || args.list_devices || !args.sets.is_empty() {
-            let line = "--cases, --measure and --atlas take no controls, and list no devices";
+            let line =
+                "--cases, --measure, --atlas and --faults take no controls, and list no devices";
             return Err(UsageError(line.to_owned()));
         }
         if args.out.is_some() || args.frames_given {
-            let line = "--cases, --measure and --atlas make no picture for --out or --frames";
+            let line =
+                "--cases, --measure, --atlas and --faults make no picture for --out or --frames";
             return Err(UsageError(line.to_owned()));
         }
         if args.scene.is_some() {
-            let line = "--cases, --measure and --atlas bring their own shapes and take no --scene";
+            let line = "--cases, --measure, --atlas and --faults bring their own shapes and take no --scene";
             return Err(UsageError(line.to_owned()));
         }
         if options.compile_for.compile_for.is_some() {
             let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
             return Err(UsageError(line.to_owned()));
         }
-        if self.cases.is_none() && options.report.report.is_some() {
+        if self.cases.is_none() && !self.faults && options.report.report.is_some() {
             let work = if self.measure.is_some() { "--measure" } else { "--atlas" };
             let line = format!("{work} writes its report to the folder and takes no --report");
             return Err(UsageError(line));

@@ -10,6 +10,7 @@ mod compiled;
 mod disagreement;
 mod drawing;
 mod families;
+mod faults;
 mod geometry;
 mod hard;
 mod judge;

@@ -99,11 +99,13 @@ fn failures((outcome, card, sheet): (Outcome, Value, String)) -> [String; 2] {
 #[test]
 fn a_card_tells_what_was_run_and_fills_the_page() {
     let (project, programs) = (project(), programs(&[]));
-    let (outcome, card, sheet) = survey(&project, programs.path(), &[], &[]);
+    let (outcome, card, sheet) = survey(&project, programs.path(), &[], &["--full"]);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
-    let start = "2 lines to come; a program is stopped after 180 s\n[1/2] 01_one: passes, ";
+    let start = "2 lines to come; a program is stopped after 60 s\n[1/2] 01_one: passes, ";
     assert!(outcome.out.starts_with(start), "{}", outcome.out);
-    assert!(outcome.out.contains(" s left\n[2/2] 02_basic: passes"), "{}", outcome.out);
+    assert!(outcome.out.contains(" ms\n[2/2] 02_basic: passes, "), "{}", outcome.out);
+    let last = outcome.out.lines().last().unwrap_or_default();
+    assert!(last.starts_with("Read the .md; then open an issue"), "{last}");
     let device = card["device"]["name"].as_str().expect("a device");
     assert!(sheet.starts_with(&format!("# {device}\n")), "{sheet}");
     assert!(card["device"]["vulkan"][0].as_u64() >= Some(1), "{card}");
@@ -125,6 +127,25 @@ fn a_card_tells_what_was_run_and_fills_the_page() {
     assert_eq!(project.run(&["sync"]).code, 0);
     let row = project.read("docs/devices.md");
     assert!(row.contains(&format!("| {device} |")) && row.contains(" | 2 of 2 | "), "{row}");
+    assert_eq!(project.check(), "");
+}
+
+/// A short card has no times, and is a card all the same.
+#[test]
+fn a_short_card_is_one() {
+    let (project, programs) = (project(), programs(&[]));
+    let (outcome, card, sheet) = survey(&project, programs.path(), &[], &[]);
+    let start = "2 lines to come; a program is stopped after 60 s, all after 3 minutes\n[1/2] 01_one: passes\n";
+    assert!(outcome.code == 0 && outcome.out.starts_with(start), "{}{}", outcome.out, outcome.err);
+    assert_eq!(
+        (&card["full"], &card["chapters"][0]["milliseconds"]),
+        (&Value::Bool(false), &Value::Null)
+    );
+    assert!(sheet.contains("| 02_basic | passes | 0.00000 | 0.00200 | 0 |\n"), "{sheet}");
+    let stem = sheet.lines().next().expect("a title")[2..].to_lowercase();
+    let words = stem.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let file = format!("docs/devices/{}.json", words.collect::<Vec<_>>().join("-"));
+    project.write(&file, &(serde_json::to_string_pretty(&card).expect("JSON") + "\n"));
     assert_eq!(project.check(), "");
 }
 
@@ -282,6 +303,27 @@ fn a_place_that_takes_no_card_is_refused_before_anything_runs() {
         assert!(code == 1 && line.starts_with(start), "{line}");
         assert!(line.ends_with("; name another folder with --out\n"), "{line}");
     }
+}
+
+/// A chapter of prices and faults, of which scripts stand in for the programs.
+#[cfg(unix)]
+#[test]
+fn faults_of_the_driver_are_rows_of_the_card() {
+    let report = "for word; do last=$word; done; case \"$*\" in *--faults*)";
+    let rows =
+        r#"echo '[{"what": "boxes after an update", "rays": 9, "wrong": 2}]' > "$last"; exit 1;;"#;
+    let script = format!("{report} {rows} esac; exit 0");
+    let (project, programs) = (project(), programs(&[("02_basic", &script)]));
+    let list = project.read("Cargo.toml").replace("02_basic", "24_accuracy");
+    project.write("Cargo.toml", &list);
+    let of = |name: &str| programs.path().join(format!("{name}{EXE_SUFFIX}"));
+    fs::rename(of("02_basic"), of("24_accuracy")).expect("a program");
+    let (outcome, card, sheet) = survey(&project, programs.path(), &[], &["--risky"]);
+    assert_eq!(outcome.code, 1, "{}{}", outcome.out, outcome.err);
+    let row = json!({"what": "boxes after an update", "rays": 9, "wrong": 2});
+    assert_eq!(card["faults"], json!([row, row]), "{}", outcome.out);
+    assert!(sheet.contains("| boxes after an update | 2 of 9 rays are wrong |"), "{sheet}");
+    assert!(sheet.contains("| known faults | 2 seen |"), "{sheet}");
 }
 
 /// A complete card.

@@ -4,6 +4,7 @@
 mod atlas;
 mod bars;
 mod compiled;
+mod faults;
 mod files;
 mod hard;
 mod tables;

@@ -10,6 +10,7 @@ use common::files::check_writable;
 use common::output::{complain, print};
 use instruments::columns::columns;
 use manuscript::project::Project;
+use time_limit::Limit;
 
 use super::row::Row;
 use super::same_price;
@@ -70,13 +71,10 @@ impl PricesArguments {
             let line = format!("no row has '{word}'; there is: {}", there.join("; "));
             return Err(common::UsageError(line).into());
         }
-        let timing = Timing { programs: &programs, stored: &stored, rounds: self.rounds, device };
-        let mut records: Vec<&str> = Vec::new();
-        rows.iter().for_each(|row| {
-            if !records.contains(&&*row.record) {
-                records.push(&row.record);
-            }
-        });
+        let limit = Limit::NONE;
+        let timing =
+            Timing { programs: &programs, stored: &stored, rounds: self.rounds, device, limit };
+        let records = Row::records(&rows);
         let names: Vec<String> = records.iter().map(|record| timing.program(record)).collect();
         ready::build(&programs, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
         let start = Instant::now();

@@ -4,6 +4,6 @@
 //! their stored values with fewer frames, and [`same_price`] draws the page's picture.
 
 pub mod command;
-mod row;
+pub mod row;
 mod same_price;
-mod timing;
+pub mod timing;

@@ -55,6 +55,17 @@ impl Row {
         rows.map(|(template, shown)| Self::of(template, shown)).collect()
     }
 
+    /// The stored measurements of these rows, each once, in order.
+    pub fn records<'a>(rows: &[&'a Self]) -> Vec<&'a str> {
+        let mut records: Vec<&str> = Vec::new();
+        for row in rows {
+            if !records.contains(&&*row.record) {
+                records.push(&row.record);
+            }
+        }
+        records
+    }
+
     fn of(template: &str, shown: &str) -> Result<Self> {
         let (template, shown) = (cells(template), cells(shown));
         let file = format!("docs/values/{TABLE}.md");

@@ -42,6 +42,8 @@ pub struct Timing<'a> {
     pub rounds: u32,
     /// The device, as given to `--device`.
     pub device: Option<&'a str>,
+    /// The longest time of a program.
+    pub limit: Limit,
 }
 
 /// The results on a device: its name and driver, and a ratio for each row.
@@ -71,7 +73,7 @@ impl Timing<'_> {
             let stored = self.stored.get(record);
             let stored = stored.with_context(|| format!("there is no measurement {record}"))?;
             let command = self.command(&stored.command, rows)?;
-            let mut given = given::run(self.programs, &command)?;
+            let mut given = given::run_within(self.programs, &command, self.limit)?;
             given.pop_first().context("it gives nothing")?.1
         };
         let ratio = |row: &&Row| {
@@ -120,7 +122,7 @@ impl Timing<'_> {
         let wanted = PRIMITIVES.iter().filter(|(letter, _)| is_wanted(*letter));
         command.args(wanted.flat_map(|(_, primitive)| ["--only", primitive]));
         command.args(self.device.into_iter().flat_map(|device| ["--device", device]));
-        let ended = child::run(command.arg("--measure").arg(folder.path()), Limit::NONE)?;
+        let ended = child::run(command.arg("--measure").arg(folder.path()), self.limit)?;
         if let Some(why) = ended.failed() {
             bail!("{why}");
         }
@@ -176,8 +178,13 @@ mod tests {
         )));
         let project = project.expect("this project");
         let programs = Programs::beside_this(&project).expect("a place");
-        let timing =
-            Timing { programs: &programs, stored: &Records::new(), rounds: 7, device: Some("H 2") };
+        let timing = Timing {
+            programs: &programs,
+            stored: &Records::new(),
+            rounds: 7,
+            device: Some("H 2"),
+            limit: Limit::NONE,
+        };
         let stored =
             "cargo run --bin 22_solids -- --headless --compare \"planes=8|16|a b\" --frames 20";
         let short = "cargo run --bin 22_solids -- --headless --compare \"planes=8|a b\" --frames 7 --device \"H 2\"";

@@ -18,6 +18,9 @@ const SILENCE: Duration = Duration::from_secs(1);
 /// The time between two messages: a build takes minutes, and silence looks like a fault.
 const AGAIN: Duration = Duration::from_secs(60);
 
+/// The start of the reason if a program exceeded its limit.
+pub const STOPPED: &str = "stopped after";
+
 /// The end of a program.
 pub struct Ended {
     /// `None` if it was stopped.
@@ -49,7 +52,7 @@ impl Ended {
     /// The reason why it failed, in one line; `None` if it did not.
     pub fn failed(&self) -> Option<String> {
         let Some(status) = self.status else {
-            return Some(format!("stopped after {} without an end", self.limit));
+            return Some(format!("{STOPPED} {} without an end", self.limit));
         };
         if status.success() {
             return None;

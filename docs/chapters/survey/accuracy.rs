@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use manuscript::project::Project;
 use serde_json::Value;
 
 use super::card::{HardCase, HardCases, Measured, MeasuredRung};
@@ -19,17 +18,19 @@ pub const RANDOM_RAYS: &str = "random rays";
 /// Its hard cases.
 const CASES: &str = "tests/data/hard_cases.json";
 
-/// Its runs, if the project has the chapter: hard cases, then random rays. Their results go to a folder.
-pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
-    if project.named(NAME).is_none() {
-        return Vec::new();
-    }
+/// The arguments of the run of its hard cases, whose results go to a folder.
+pub fn hard(folder: &Path) -> Vec<String> {
     let mut cases = words(&["--headless", "--cases", CASES, "--report"]);
     cases.push(folder.join(ANSWERS).to_string_lossy().into_owned());
+    cases
+}
+
+/// The arguments of the run of its random rays, whose results go to a folder.
+pub fn random(folder: &Path) -> Vec<String> {
     let mut measure = words(&["--headless", "--rays", "256", "--rounds", "5"]);
     measure.extend(words(&["--only", "sphere", "--only", "triangle", "--measure"]));
     measure.push(folder.to_string_lossy().into_owned());
-    vec![(HARD_CASES, cases), (RANDOM_RAYS, measure)]
+    measure
 }
 
 /// The file of the results on the hard cases.

@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 
 use super::card::{Card, ChapterResult, Device, HardCase, HardCases};
+use super::faults::FaultRow;
+use super::price::Price;
 
 /// The limits of a device in a line.
 fn limits(Device { limits, .. }: &Device) -> String {
@@ -71,33 +73,51 @@ pub fn card(card: &Card) -> String {
     }
     line("chapters that pass", &format!("{} of {}", card.passed(), card.offered()));
     line("hard cases", &top(&card.hard_cases));
-    let _ = writeln!(
+    line("known faults", &seen(&card.faults));
+    if !card.left_out.is_empty() {
+        line("left out, because three minutes were over", &card.left_out.join(", "));
+    }
+    let _ = write!(
         text,
         "\nA picture passes if its mean FLIP error against the golden one is at most what Vulkan lets the device \
-         round; on the software driver of Mesa 25.0.7, which made it, at most {}. Times are of {} pixels.\n\n\
-         | chapter | result | mean FLIP | at most | GPU ms | messages | device's compiler | RADV, RDNA 3: \
-         instructions, registers, spilled |\n|---|---|--:|--:|--:|--:|---|---|",
-        card.tolerance, card.timed
+         round; on the software driver of Mesa 25.0.7, which made it, at most {}.",
+        card.tolerance
     );
+    if card.full {
+        let _ = write!(text, " Times are of {} pixels.", card.timed);
+    }
+    text.push_str("\n\n| chapter | result | mean FLIP | at most | messages |");
+    text.push_str(if card.full {
+        " GPU ms | device's compiler | RADV, RDNA 3: instructions, registers, spilled |\n\
+         |---|---|--:|--:|--:|--:|---|---|\n"
+    } else {
+        "\n|---|---|--:|--:|--:|\n"
+    });
     for chapter in &card.chapters {
         let number = |value: Option<f64>, digits: usize| {
             value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
         };
-        let _ = writeln!(
+        let _ = write!(
             text,
-            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} |",
             chapter.name,
             result(chapter),
             number(chapter.mean_flip.map(f64::from), 5),
             number(chapter.tolerance.map(f64::from), 5),
-            number(chapter.milliseconds, 2),
             chapter.validation_messages,
-            compiler(chapter),
-            radv(chapter),
         );
+        if card.full {
+            let milliseconds = number(chapter.milliseconds, 2);
+            let _ = write!(text, " {milliseconds} | {} | {} |", compiler(chapter), radv(chapter));
+        }
+        text.push('\n');
     }
     text.push_str(&hard_cases(&card.hard_cases));
-    text.push_str(&measured(card));
+    text.push_str(&faults(&card.faults));
+    text.push_str(&prices(&card.prices));
+    if card.full {
+        text.push_str(&measured(card));
+    }
     text
 }
 
@@ -140,6 +160,47 @@ fn top(table: &HardCases) -> String {
         (None, 0) => format!("top rungs right {right} of {cases}"),
         (None, _) => format!("top rungs right {right} of {cases}, {missing} rungs not offered"),
     }
+}
+
+/// The number of known faults that the device has.
+fn seen(faults: &[FaultRow]) -> String {
+    match faults.iter().filter(|row| row.is_seen()).count() {
+        _ if faults.is_empty() => "not looked for".to_owned(),
+        0 => "none seen".to_owned(),
+        count => format!("{count} seen"),
+    }
+}
+
+fn faults(rows: &[FaultRow]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        "\n## Known faults of drivers\n\n| circumstances | result |\n|---|---|\n".to_owned();
+    for row in rows {
+        let _ = writeln!(text, "| {} | {} |", row.what, row.result().replace('|', "\\|"));
+    }
+    text
+}
+
+fn prices(rows: &[Price]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut text = "\n## What accuracy costs\n\n\
+                    | time of the accurate way, divided by that of the simple one | ratio | middle half |\n\
+                    |---|--:|--:|\n"
+        .to_owned();
+    for Price { what, ratio, quartiles, failed } in rows {
+        let ratio = ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
+        let middle = match (failed, quartiles) {
+            (Some(why), _) => why.replace('|', "\\|"),
+            (None, Some([low, high])) => format!("{low:.2} to {high:.2}"),
+            (None, None) => "–".to_owned(),
+        };
+        let _ = writeln!(text, "| {what} | {ratio} | {middle} |");
+    }
+    text
 }
 
 fn hard_cases(table: &HardCases) -> String {

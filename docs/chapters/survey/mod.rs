@@ -4,4 +4,8 @@ pub mod accuracy;
 pub mod atlas;
 pub mod card;
 pub mod card_page;
+mod chapter;
 pub mod command;
+mod faults;
+mod price;
+mod steps;

@@ -26,6 +26,14 @@ pub type Values = BTreeMap<String, Record>;
 /// # Errors
 /// If it is neither, cannot be run, or fails; in one line.
 pub fn run(programs: &Programs, command: &str) -> Result<Values> {
+    run_within(programs, command, Limit::NONE)
+}
+
+/// As [`run`], with a limit.
+///
+/// # Errors
+/// As [`run`], or if the command exceeds the limit.
+pub fn run_within(programs: &Programs, command: &str, limit: Limit) -> Result<Values> {
     let folder = NewFolder::temporary()?;
     let words = shlex::split(command).unwrap_or_default();
     // The words before it set the environment, `NAME=value`.
@@ -35,7 +43,7 @@ pub fn run(programs: &Programs, command: &str) -> Result<Values> {
         let mut test = child::cargo(&programs.project.root);
         test.args(&words[1..]).env("FIGURES", folder.path());
         test.envs(environment.iter().filter_map(|word| word.split_once('=')));
-        finish(&mut test)?;
+        finish(&mut test, limit)?;
         return held(folder.path());
     }
     let runs = command_line::runs(command);
@@ -50,13 +58,13 @@ pub fn run(programs: &Programs, command: &str) -> Result<Values> {
         let own = own.map(|name| folder.path().join(name).to_string_lossy().into_owned());
         arguments.extend(own.into_iter().flat_map(|file| [option.to_owned(), file]));
     }
-    finish(programs.built(program)?.args(&arguments).arg("--report").arg(&file))?;
+    finish(programs.built(program)?.args(&arguments).arg("--report").arg(&file), limit)?;
     let report: Value = serde_json::from_slice(&fs::read(&file)?)?;
     Ok(BTreeMap::from([(String::new(), reported(&report)?)]))
 }
 
-fn finish(command: &mut Command) -> Result<()> {
-    let ended = child::run(command, Limit::NONE)?;
+fn finish(command: &mut Command, limit: Limit) -> Result<()> {
+    let ended = child::run(command, limit)?;
     let is_why = |line: &&str| line.contains("error") || line.contains("panicked");
     let why = ended.said.lines().chain(ended.told.lines()).find(is_why).map(str::to_owned);
     match ended.failed() {
