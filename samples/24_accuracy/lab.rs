@@ -130,7 +130,8 @@ impl Lab {
             prepare(folder, &ATLAS)?;
         }
         // A rung that the device lacks is reported, and the others are run.
-        let mut device = args.device(Requirements::ray_tracing().float64_where_offered());
+        let mut device =
+            args.device(Requirements::ray_tracing().float64_where_offered().fma_where_offered());
         let report = options.report.report.clone();
         Instruments::new(options).device(&mut device);
         let gpu = Gpu::new(&device)?;

@@ -72,7 +72,7 @@ common::shader_struct! {
 impl Sample for Demo {
     /// The picture's shaders declare what two-floats need, whichever rung they show.
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().float64_where_offered().exact_floats()
+        Requirements::ray_tracing().float64_where_offered().fma_where_offered().exact_floats()
     }
 
     fn new(gpu: &Gpu, _: &Setup) -> Result<Self> {
@@ -177,6 +177,7 @@ impl Demo {
             .constant(1, self.probe.fused)
             .constant(2, top.constant)
             .binding(Binding::StorageImage)
+            .fma_rounded_once(gpu)
             .push_constants::<Push>()
             .build(gpu)?;
         // ANCHOR_END: pipeline

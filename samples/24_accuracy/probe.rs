@@ -129,6 +129,7 @@ impl Probe {
             .define("PRIMITIVE", primitive as u32)
             .constant(0, rung)
             .constant(FUSED, self.fused)
+            .fma_rounded_once(&self.gpu)
             .push_constants::<Push>()
     }
 

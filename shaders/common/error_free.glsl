@@ -4,6 +4,18 @@
 //
 // This needs `precise` and rounding to nearest. FUSED is whether fma() rounds once, which GLSL does not
 // promise: a shader whose host has asked the device defines it before; 0 is right everywhere.
+//
+// SPIR-V has an instruction that must round once, OpFmaKHR, and GLSL has no word for it. The host defines FMA_KHR
+// where the device offers it (VK_KHR_shader_fma).
+#ifdef FMA_KHR
+#extension GL_EXT_spirv_intrinsics : require
+spirv_instruction(extensions = ["SPV_KHR_fma"], capabilities = [6030], id = 4427)
+float fma_once(float a, float b, float c);
+#undef FUSED
+#define FUSED 1
+#else
+#define fma_once fma
+#endif
 #ifndef FUSED
 #define FUSED 0
 #endif
@@ -33,11 +45,11 @@ vec2 split(float a) {
     return vec2(high, low);
 }
 
-// a·b is product.x + product.y, exactly: by an fma() that rounds once, or from halves (Dekker).
+// a·b is product.x + product.y, exactly: by an fma that rounds once, or from halves (Dekker).
 vec2 two_product(float a, float b) {
     precise float product = a * b;
     if (FUSED != 0) {
-        precise float error = fma(a, b, -product);
+        precise float error = fma_once(a, b, -product);
         return vec2(product, error);
     }
     vec2 x = split(a);

@@ -265,3 +265,21 @@ fn error_free_sums_demand_rounding_to_nearest() {
         assert!(words.windows(4).any(|w| w[0] == 4 << 16 | 16 && w[2..] == [4462, 32]), "{stage}");
     }
 }
+
+/// Where a device promises an fma that rounds once, products are computed by it: `OpFmaKHR`, with its capability and
+/// extension. Elsewhere the module has neither.
+#[test]
+fn products_use_the_promised_fma_only_where_it_is_promised() {
+    for stage in ["24_accuracy/direct_exact.rgen", "24_accuracy/view.rgen", "22_solids/solid.rint"]
+    {
+        let words = |defines: &[(&str, String)]| {
+            Shader::of(stage, defines, |stage| stage.words()).expect("it compiles").spirv
+        };
+        let has = |words: &[u32]| {
+            let has = |start: &[u32]| words.windows(start.len()).any(|w| w == start);
+            [has(&[2 << 16 | 17, 6030]), words.iter().any(|&word| word == 6 << 16 | 4427)]
+        };
+        assert_eq!(has(&words(&[("FMA_KHR", "1".to_owned())])), [true, true], "{stage}");
+        assert_eq!(has(&words(&[])), [false, false], "{stage}");
+    }
+}

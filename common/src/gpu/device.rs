@@ -2,6 +2,7 @@
 
 pub mod context;
 pub mod features;
+mod fma_extension;
 pub mod instance;
 pub mod limits;
 pub mod requirements;

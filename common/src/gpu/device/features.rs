@@ -4,6 +4,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
+use super::fma_extension::{FmaFeatures, SHADER_FMA};
 use crate::gpu::accel::micromap_extension::{
     AddressCommandsFeatures, DEVICE_ADDRESS_COMMANDS, MicromapFeatures, OPACITY_MICROMAP,
 };
@@ -21,6 +22,7 @@ pub struct Features {
     pub ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
     pub address_commands: AddressCommandsFeatures,
     pub micromap: MicromapFeatures,
+    pub fma: FmaFeatures,
     pub executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
@@ -54,6 +56,9 @@ impl Features {
         }
         if has(OPACITY_MICROMAP) {
             chain = chain.push_next(&mut self.micromap);
+        }
+        if has(SHADER_FMA) {
+            chain = chain.push_next(&mut self.fma);
         }
         if has(khr::pipeline_executable_properties::NAME) {
             chain = chain.push_next(&mut self.executable);

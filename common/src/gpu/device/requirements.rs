@@ -7,6 +7,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
+use super::fma_extension::SHADER_FMA;
 use crate::gpu::accel::micromap_extension::{DEVICE_ADDRESS_COMMANDS, OPACITY_MICROMAP};
 use crate::gpu::{Features, Limits};
 
@@ -154,6 +155,17 @@ impl Requirements {
     /// 64-bit floats in shaders, if the device supports them: see its [`Features`].
     pub fn float64_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));
+        self
+    }
+
+    /// A product and a sum that are rounded once, if the device promises that: see
+    /// [`PipelineBuilder::fma_rounded_once`](crate::gpu::PipelineBuilder::fma_rounded_once).
+    pub fn fma_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(SHADER_FMA),
+            "shaderFmaFloat32",
+            fma.shader_fma_float32
+        ));
         self
     }
 

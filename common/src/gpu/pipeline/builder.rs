@@ -196,6 +196,17 @@ impl<'a> PipelineBuilder<'a> {
         }
     }
 
+    /// Lets shaders that opt in by `#ifdef FMA_KHR` use the instruction `OpFmaKHR`, which rounds once, if the sample
+    /// has asked for it by [`Requirements::fma_where_offered`](crate::gpu::Requirements::fma_where_offered) and the
+    /// device offers it.
+    pub fn fma_rounded_once(self, gpu: &Gpu) -> Self {
+        if gpu.features.fma.shader_fma_float32 == vk::TRUE {
+            self.define("FMA_KHR", 1)
+        } else {
+            self
+        }
+    }
+
     /// Promises that rays skip all triangles, or all boxes: requires `rayTraversalPrimitiveCulling`, and only one
     /// of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
