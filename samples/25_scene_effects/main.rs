@@ -3,6 +3,7 @@
 //! New since 12_infinite_plane: effects found from the scene, shaders in pieces, stages and groups that
 //! come and go, and one more pipeline that has everything, to be compared with.
 
+mod clock;
 mod contents;
 mod costs;
 mod geometry;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
     common::exit::finish(|| {
         let name = env!("CARGO_BIN_NAME");
         let (args, options, why) = instruments::parse_with::<Why>(name)?;
+        clock::check(&args)?;
         why.start(name, args, options)
     })
 }
@@ -61,10 +63,17 @@ struct Demo {
     without: u32,
     also: u32,
     measure: bool,
+    show: u32,
+    /// The ticks that the view of time shows in white.
+    hottest: f32,
+    /// The ticks of each pixel, while they are shown.
+    ticks: Option<Buffer>,
     light: u32,
     material: u32,
     /// The reason why the chosen scene cannot be opened.
     trouble: Option<anyhow::Error>,
+    /// The device lets threads change places.
+    can_reorder: bool,
     options: SceneOptions,
 }
 
@@ -74,12 +83,19 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         world: Address,
+        ticks: Address<u32>,
+        hottest: f32,
     }
 }
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures().mipmaps().primitive_culling_where_offered()
+        Requirements::ray_tracing()
+            .textures()
+            .mipmaps()
+            .primitive_culling_where_offered()
+            .shader_clock_where_offered()
+            .invocation_reorder_where_offered()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
@@ -104,9 +120,13 @@ impl Sample for Demo {
             without: 0,
             also: 0,
             measure: false,
+            show: 0,
+            hottest: 500_000.0,
+            ticks: None,
             light: 1,
             material: 0,
             trouble: None,
+            can_reorder: recipe::can_reorder(gpu),
             options: setup.options,
         })
     }
@@ -121,6 +141,8 @@ impl Sample for Demo {
         c.one_of("without", &mut self.without, &names);
         c.one_of("also", &mut self.also, &names);
         c.checkbox("measure costs", &mut self.measure);
+        c.one_of("show", &mut self.show, &["picture", "time"]);
+        c.slider("hottest", &mut self.hottest, 1e3..=1e8);
         c.integer("samples", &mut self.scene.samples, 1..=64);
         c.integer("depth", &mut self.scene.depth, 0..=32);
         c.integer("bounces", &mut self.scene.bounces, 0..=8);
@@ -143,6 +165,11 @@ impl Sample for Demo {
             let queue = format!("{}, whose queue has no timestamps", gpu.name);
             self.trouble = Some(anyhow!("costs cannot be measured on {queue}"));
         }
+        if self.show == clock::TIME && !clock::has_clock(gpu) {
+            self.show = 0;
+            let what = format!("{}, whose shaders have no clock (VK_KHR_shader_clock)", gpu.name);
+            self.trouble = Some(anyhow!("times cannot be shown on {what}"));
+        }
         if let Some(error) = self.trouble.take() {
             return Err(error);
         }
@@ -158,6 +185,12 @@ impl Sample for Demo {
         let first = next.context("rays are numbered up to 2^32: ask for fewer samples")? - rays;
         let world = World::new(&self.scene, shapes, self.camera.eye, first);
         self.world.update(frame.cmd, &[world])?;
+        let pixels = u64::from(frame.image.extent.width) * u64::from(frame.image.extent.height);
+        if self.show != clock::TIME {
+            self.ticks = None;
+        } else if self.ticks.as_ref().is_none_or(|ticks| ticks.size != 4 * pixels) {
+            self.ticks = Some(clock::ticks(frame.gpu, frame.image.extent)?);
+        }
         let recipe = self.recipe();
         if !self.measure {
             self.costs = None;
@@ -217,6 +250,7 @@ impl Demo {
         if let Some(put_in) = chosen(self.also) {
             recipe.effects = recipe.effects.with(put_in);
         }
+        recipe.timed = self.show == clock::TIME;
         recipe
     }
     // ANCHOR_END: recipe
@@ -248,8 +282,13 @@ impl Demo {
         // ANCHOR: trace
         let Variant { key, pipeline, sbt } =
             self.pipelines.choose(frame, &geometry.scene.textures, recipe, pipeline)?;
-        let push =
-            Push { camera, scene: geometry.scene.addresses, world: self.world.address.into() };
+        let push = Push {
+            camera,
+            scene: geometry.scene.addresses,
+            world: self.world.address.into(),
+            ticks: self.ticks.as_ref().map_or(0, |ticks| ticks.address).into(),
+            hottest: self.hottest,
+        };
         let descriptors = [
             Descriptor::AccelerationStructure(geometry.top_level(frame.gpu, *key)?),
             Descriptor::StorageImage(frame.image),

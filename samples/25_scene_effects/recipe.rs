@@ -26,6 +26,18 @@ pub enum GeometryKind {
 }
 
 impl GeometryKind {
+    /// The kind in words, for a reason.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Mesh => "meshes",
+            Self::Sphere => "spheres",
+            Self::Box => "boxes",
+            Self::Ground => "a heightfield",
+            Self::Solid => "solids",
+            Self::Strand => "strands",
+        }
+    }
+
     /// All kinds, in the order of hit records and mask bits, each with the effect that triggers it.
     pub const ALL: [(Self, Effect); 6] = [
         (Self::Mesh, Triangles),
@@ -42,6 +54,9 @@ impl GeometryKind {
     }
 }
 
+/// The effects with which surfaces send rays on, as PATHS in effects.glsl.
+const PATHS: [Effect; 3] = [Mirror, Bounces, Glass];
+
 /// The features a pipeline is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Recipe {
@@ -53,6 +68,8 @@ pub struct Recipe {
     pub lights: u32,
     /// Patterns it supports, one bit each.
     pub patterns: u32,
+    /// True to show the time that each pixel takes instead of its colour.
+    pub timed: bool,
 }
 
 impl Recipe {
@@ -68,6 +85,7 @@ impl Recipe {
             light_kinds: kinds,
             lights: scene.lights.len() as u32,
             patterns: patterns.fold(0, |bits, pattern| bits | 1 << pattern as u32),
+            timed: false,
         }
     }
 
@@ -78,6 +96,7 @@ impl Recipe {
             light_kinds: 3,
             lights: MAX_LIGHTS as u32,
             patterns: 0b1110,
+            timed: false,
         }
     }
 
@@ -95,6 +114,21 @@ impl Recipe {
     /// The cull mask of its rays.
     pub fn mask(&self) -> u32 {
         self.kinds().into_iter().fold(0, |mask, kind| mask | kind.mask())
+    }
+
+    /// The reason why rays of neighbouring pixels run different shaders: bounced rays that meet several kinds of
+    /// surface. `Err` has the reason why they do not.
+    pub fn divergence(&self) -> Result<String, &'static str> {
+        if !self.effects.has_any(&PATHS) {
+            return Err("no surface sends a ray on");
+        }
+        match &self.kinds()[..] {
+            [] | [_] => Err("bounced rays meet one kind of surface"),
+            kinds => {
+                let words: Vec<&str> = kinds.iter().map(|kind| kind.words()).collect();
+                Ok(format!("bounced rays meet {}", words.join(", ")))
+            }
+        }
     }
 
     fn hit_group(&self, kind: GeometryKind) -> HitGroup<'static> {
@@ -126,6 +160,11 @@ impl Recipe {
     }
 }
 
+/// Returns whether the device lets threads change places between two rays.
+pub fn can_reorder(gpu: &Gpu) -> bool {
+    gpu.features.reorder.ray_tracing_invocation_reorder == vk::TRUE
+}
+
 /// The pipeline of a recipe. Its hit groups are numbered without gaps.
 pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<RayTracingPipeline> {
     let mut builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -152,6 +191,12 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
     }
     if recipe.effects.has_any(&[Textures, CutOut]) {
         builder = builder.textures(textures);
+    }
+    if can_reorder(gpu) && recipe.divergence().is_ok() {
+        builder = builder.define("REORDERING", 1);
+    }
+    if recipe.timed {
+        builder = builder.define("TIMED", 1);
     }
     let defines: Vec<String> = recipe.effects.all().map(Effect::define).collect();
     defines.iter().fold(builder, |builder, define| builder.define(define, 1)).build(gpu)

@@ -6,6 +6,7 @@ use common::gpu::{Pipeline, Reflection, Stage};
 use effects::Finding;
 use serde_json::{Value, json};
 
+use crate::clock;
 use crate::contents::Contents;
 use crate::recipe::Recipe;
 use crate::scenes::SCENES;
@@ -28,9 +29,18 @@ pub fn report(demo: &Demo) -> Result<Value> {
             "time_without": cost.map(|cost| cost.ratio),
         })
     });
+    let divergence = demo.recipe().divergence();
+    let reordering = json!({
+        "in": demo.can_reorder && divergence.is_ok(),
+        "divergent": divergence.is_ok(),
+        "why": divergence.unwrap_or_else(str::to_owned),
+        "offered": demo.can_reorder,
+    });
     Ok(json!({
+        "reordering": reordering,
         "scene": SCENES[demo.number as usize],
         "effects": effects.collect::<Vec<_>>(),
+        "ticks": demo.ticks.as_ref().map(clock::report).transpose()?,
         "pipeline": demo.pipelines.current().map(compiled).transpose()?,
     }))
 }

@@ -87,6 +87,29 @@ struct Reason {
     why: String,
 }
 
+/// Whether threads change places between two rays, in the chapter's report.
+#[derive(Clone, Debug, Deserialize)]
+struct Reordering {
+    divergent: bool,
+    why: String,
+    offered: bool,
+}
+
+impl Reordering {
+    /// The result in a line.
+    fn line(&self) -> String {
+        let Self { divergent, why, offered } = self;
+        match (divergent, offered) {
+            (true, true) => format!("Threads change places between rays: {why}."),
+            (true, false) => format!(
+                "Threads keep their places: this device lacks VK_EXT_ray_tracing_invocation_reorder. The scene is \
+                 divergent: {why}."
+            ),
+            (false, _) => format!("Threads keep their places: {why}."),
+        }
+    }
+}
+
 /// A row of the table.
 #[derive(Clone, Debug)]
 struct Row {
@@ -135,7 +158,8 @@ impl RunHooks for Table {
                 }
             })
             .collect();
-        output::print(&page(run, &rows, &pipelines, &compiled))?;
+        let reordering = Reordering::deserialize(&report["reordering"])?;
+        output::print(&page(run, &rows, &pipelines, &compiled, &reordering))?;
         run.frames.clear();
         Ok(())
     }
@@ -171,7 +195,13 @@ fn instructions(run: &Run) -> Result<Vec<i64>> {
 }
 
 /// Everything that the command prints.
-fn page(run: &Run, rows: &[Row], pipelines: &Comparison, compiled: &Result<Vec<i64>>) -> String {
+fn page(
+    run: &Run,
+    rows: &[Row],
+    pipelines: &Comparison,
+    compiled: &Result<Vec<i64>>,
+    reordering: &Reordering,
+) -> String {
     let counts = compiled.as_deref().unwrap_or_default();
     let needed = rows.iter().filter(|row| row.reason.needed).count();
     let [own, all] = [counts.first(), counts.last()].map(|count| match count {
@@ -189,7 +219,8 @@ fn page(run: &Run, rows: &[Row], pipelines: &Comparison, compiled: &Result<Vec<i
          {}\n\
          ✓  called for: leaving it out would save this and change the picture\n\
          ✗  not called for: it is left out, which saves this and changes no pixel\n\
-         Instructions are estimates by Mesa's compiler for {}; milliseconds were measured here.\n{refused}",
+         Instructions are estimates by Mesa's compiler for {}; milliseconds were measured here.\n{refused}\
+         {}\n",
         run.gpu.name,
         run.gpu.driver,
         pipelines.rounds,
@@ -198,6 +229,7 @@ fn page(run: &Run, rows: &[Row], pipelines: &Comparison, compiled: &Result<Vec<i
         milliseconds(1),
         table(rows),
         FAMILY.1,
+        reordering.line(),
     )
 }
 

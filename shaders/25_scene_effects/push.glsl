@@ -134,10 +134,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
 
+// The time of each pixel, in ticks of the device's clock.
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ticks { uint at[]; };
+
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     World world;
+    Ticks ticks;
+    float hottest;        // the ticks that are shown in white
 } push;
 
 // The kinds of light, one bit per kind; the largest number of lights; the kinds of geometry that rays

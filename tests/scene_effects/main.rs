@@ -6,6 +6,7 @@ mod generated;
 mod light;
 mod lines;
 mod plots;
+mod time;
 mod why;
 
 use std::collections::BTreeSet;

@@ -35,6 +35,7 @@ fn every_effect_has_a_line_with_its_reason() {
     }
     assert!(out.contains("✓  spheres "), "{out}");
     assert!(out.contains("1 sphere"), "{out}");
+    assert!(out.contains("\nThreads keep their places: no surface sends a ray on."), "{out}");
 }
 
 #[test]

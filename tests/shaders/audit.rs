@@ -217,61 +217,34 @@ fn every_module_is_valid() {
     }
 }
 
-/// The patch of the page *Threads that change places*.
-const REORDERING: &str = "docs/reordering.diff";
-
-/// Its hunks by file: the old text, and the new text.
-fn hunks(patch: &str) -> Vec<(&str, Vec<[String; 2]>)> {
-    let mut files: Vec<(&str, Vec<[String; 2]>)> = Vec::new();
-    for line in patch.lines() {
-        if let Some(file) = line.strip_prefix("+++ ") {
-            files.push((file, Vec::new()));
-        } else if line.starts_with("@@") {
-            files.last_mut().expect("a file").1.push([String::new(), String::new()]);
-        } else if !line.starts_with("--- ") {
-            let [old, new] = files.last_mut().and_then(|(_, h)| h.last_mut()).expect("a hunk");
-            let (sign, text) = line.split_at(1);
-            if sign != "+" {
-                *old += &format!("{text}\n");
-            }
-            if sign != "-" {
-                *new += &format!("{text}\n");
-            }
-        }
-    }
-    files
-}
-
-/// No device of this project runs it, so only checks without a device are possible.
+/// No device of this project reorders threads, so only checks without a device are possible.
 #[test]
-fn reordering_is_a_patch_that_applies_and_whose_module_is_valid() {
-    let read = |file: &str| std::fs::read_to_string(run::root().join(file)).expect("a text");
-    let patch = read(REORDERING);
-    let files = hunks(&patch);
-    for (file, hunks) in &files {
-        let text = read(file);
-        for [old, _] in hunks {
-            assert_eq!(text.matches(old).count(), 1, "{file} has not one\n{old}");
-        }
-    }
-    let (file, hunks) = files.last().expect("the shader comes last");
-    let path = file.strip_prefix("shaders/").expect("a shader");
-    let shader = Shader::of(path, &[], |stage| {
-        let text = hunks.iter().fold(stage.text.clone(), |text, [old, new]| {
-            assert_eq!(text.matches(old).count(), 1, "{path} has not one\n{old}");
-            text.replace(old, new)
-        });
-        StageText { text, ..stage }.words()
-    });
-    let shader = shader.expect("it compiles");
+fn reordering_makes_a_valid_module_of_three_steps() {
+    let path = "25_scene_effects/camera.rgen";
+    let of = |defines: &[(&str, String)]| Shader::of(path, defines, |stage| stage.words());
+    let shader = of(&[("REORDERING", "1".to_owned())]).expect("it compiles");
     let module = rspirv::dr::load_words(&shader.spirv).expect("SPIR-V");
     let reorders = Operand::Capability(Capability::ShaderInvocationReorderEXT);
-    assert!(module.capabilities.iter().any(|declared| declared.operands[0] == reorders));
-    validate(REORDERING, &shader.spirv);
+    let declares = |module: &Module| {
+        module.capabilities.iter().any(|declared| declared.operands[0] == reorders)
+    };
+    assert!(declares(&module));
+    let functions = module.functions.iter().flat_map(|function| &function.blocks);
+    let codes = functions.flat_map(|block| &block.instructions).map(|i| i.class.opcode);
+    let steps = [
+        Op::HitObjectTraceRayEXT,
+        Op::ReorderThreadWithHitObjectEXT,
+        Op::HitObjectExecuteShaderEXT,
+    ];
+    let found: Vec<Op> = codes.filter(|code| steps.contains(code)).collect();
+    assert_eq!(found, steps);
+    validate(path, &shader.spirv);
     // The framework treats the hit object's payload as a passed payload, next to that of the shadow ray.
     let passed = Reflection::of(&shader.spirv).expect("SPIR-V").payloads().passed;
     let misses: Vec<_> = passed.iter().map(|passed| passed.miss).collect();
-    assert_eq!(misses, [Some(0), Some(1)]);
+    assert!(misses.contains(&Some(0)) && misses.contains(&Some(1)), "{misses:?}");
+    let without = rspirv::dr::load_words(&of(&[]).expect("it compiles").spirv).expect("SPIR-V");
+    assert!(!declares(&without));
 }
 
 /// The rewriter knows every operation of every shader, and its results are valid SPIR-V.

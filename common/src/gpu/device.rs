@@ -1,10 +1,11 @@
 //! The choice of a physical device: real GPUs first, and the missing features of each one refused.
 
+pub(crate) mod chained;
 pub mod context;
 pub mod features;
-mod fma_extension;
 pub mod instance;
 pub mod limits;
+mod newer;
 pub mod requirements;
 pub mod threads;
 

@@ -8,6 +8,8 @@ use std::ptr;
 
 use ash::vk;
 
+use crate::gpu::device::chained::chained;
+
 /// The extension of [`MicromapFeatures`].
 pub const OPACITY_MICROMAP: &CStr = c"VK_KHR_opacity_micromap";
 /// The extension of [`AddressCommandsFeatures`] and [`CreateInfo2`].
@@ -22,33 +24,6 @@ pub const GEOMETRY_TYPE: vk::GeometryTypeKHR = vk::GeometryTypeKHR::from_raw(1_0
 pub const FORMAT_4_STATE: u16 = 2;
 /// Alignment of a build's `data` and `triangleArray` (VUID-vkCmdBuildAccelerationStructuresKHR-micromap-11552).
 pub const INPUT_ALIGNMENT: u64 = 128;
-
-/// A structure of a `pNext` chain, zeroed by default.
-macro_rules! chained {
-    ($(#[$about:meta])* $name:ident = $kind:literal { $($field:ident: $type:ty = $zero:expr),* $(,)? }) => {
-        $(#[$about])*
-        #[repr(C)]
-        #[derive(Clone, Copy)]
-        #[allow(missing_docs, reason = "they are Vulkan's")]
-        pub struct $name {
-            pub s_type: vk::StructureType,
-            pub p_next: *mut c_void,
-            $(pub $field: $type),*
-        }
-
-        impl Default for $name {
-            fn default() -> Self {
-                let s_type = vk::StructureType::from_raw($kind);
-                Self { s_type, p_next: ptr::null_mut(), $($field: $zero),* }
-            }
-        }
-
-        // SAFETY: its pointers are used only in calls that receive the whole chain.
-        unsafe impl Send for $name {}
-        // SAFETY: as above.
-        unsafe impl Sync for $name {}
-    };
-}
 
 chained! {
     /// `VkPhysicalDeviceDeviceAddressCommandsFeaturesKHR`.

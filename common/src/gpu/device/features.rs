@@ -4,7 +4,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
-use super::fma_extension::{FmaFeatures, SHADER_FMA};
+use super::newer::{FmaFeatures, INVOCATION_REORDER, ReorderFeatures, SHADER_FMA};
 use crate::gpu::accel::micromap_extension::{
     AddressCommandsFeatures, DEVICE_ADDRESS_COMMANDS, MicromapFeatures, OPACITY_MICROMAP,
 };
@@ -22,7 +22,9 @@ pub struct Features {
     pub ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
     pub address_commands: AddressCommandsFeatures,
     pub micromap: MicromapFeatures,
+    pub clock: vk::PhysicalDeviceShaderClockFeaturesKHR<'static>,
     pub fma: FmaFeatures,
+    pub reorder: ReorderFeatures,
     pub executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
@@ -56,6 +58,12 @@ impl Features {
         }
         if has(OPACITY_MICROMAP) {
             chain = chain.push_next(&mut self.micromap);
+        }
+        if has(khr::shader_clock::NAME) {
+            chain = chain.push_next(&mut self.clock);
+        }
+        if has(INVOCATION_REORDER) {
+            chain = chain.push_next(&mut self.reorder);
         }
         if has(SHADER_FMA) {
             chain = chain.push_next(&mut self.fma);

@@ -7,7 +7,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
-use super::fma_extension::SHADER_FMA;
+use super::newer::{INVOCATION_REORDER, SHADER_FMA};
 use crate::gpu::accel::micromap_extension::{DEVICE_ADDRESS_COMMANDS, OPACITY_MICROMAP};
 use crate::gpu::{Features, Limits};
 
@@ -165,6 +165,26 @@ impl Requirements {
             Some(SHADER_FMA),
             "shaderFmaFloat32",
             fma.shader_fma_float32
+        ));
+        self
+    }
+
+    /// A clock that shaders can read, if the device has one: see its [`Features`].
+    pub fn shader_clock_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(khr::shader_clock::NAME),
+            "shaderSubgroupClock",
+            clock.shader_subgroup_clock
+        ));
+        self
+    }
+
+    /// Threads that change places by what their rays met, if the device lets them: see its [`Features`].
+    pub fn invocation_reorder_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(INVOCATION_REORDER),
+            "rayTracingInvocationReorder",
+            reorder.ray_tracing_invocation_reorder
         ));
         self
     }
