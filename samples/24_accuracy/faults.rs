@@ -81,7 +81,7 @@ pub fn run(gpu: &Gpu, risky: bool, report: Option<&Path>) -> Result<()> {
     } else {
         let [before, after] = [0, 1].map(boxes);
         vec![
-            lost("boxes as they were built", gpu, &before, None)?,
+            lost("boxes as they were built (to compare with)", gpu, &before, None)?,
             lost("boxes after an update", gpu, &before, Some(&after))?,
             wrong_attributes(gpu, &before)?,
         ]
@@ -112,7 +112,7 @@ impl Row {
         let places =
             if places.is_empty() { String::new() } else { format!(" {}", places.join(", ")) };
         match wrong {
-            0 => format!("{what}: not seen here, {rays} rays"),
+            0 => format!("{what}: all {rays} rays are right"),
             _ => format!("{what}: {wrong} of {rays} rays are wrong{places}"),
         }
     }

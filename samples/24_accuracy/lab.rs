@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use common::UsageError;
-use common::app::{Args, RunHooks, check_validation};
+use common::app::{Args, Development, RunHooks, check_validation};
 use common::files::{self, write_whole};
 use common::gpu::{Gpu, Requirements};
 use common::output;
@@ -170,6 +170,10 @@ impl Lab {
         if args.out.is_some() || args.frames_given {
             let line =
                 "--cases, --measure, --atlas and --faults make no picture for --out or --frames";
+            return Err(UsageError(line.to_owned()));
+        }
+        if args.sky.is_some() || args.development != Development::default() {
+            let line = "--cases, --measure, --atlas and --faults show no picture for --sky, --exposure or --tone";
             return Err(UsageError(line.to_owned()));
         }
         if args.scene.is_some() {

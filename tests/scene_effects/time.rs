@@ -51,7 +51,11 @@ fn a_divergent_scene_has_a_reason() {
         ("crystal", true, "bounced rays meet meshes, spheres"),
     ] {
         let found = report(scene, &[])["chapter"]["reordering"].clone();
-        assert_eq!((&found["divergent"], &found["why"]), (&divergent.into(), &why.into()), "{scene}");
+        assert_eq!(
+            (&found["divergent"], &found["why"]),
+            (&divergent.into(), &why.into()),
+            "{scene}"
+        );
         assert_eq!(found["in"], divergent && found["offered"] == true, "{found}");
     }
 }

@@ -26,11 +26,14 @@ const FILE_BYTES: u64 = 512 << 20;
 /// Width and height.
 const SIDE: usize = 16384;
 
-/// Number of texels: one more, and a random number of 24 bits no longer chooses each of them.
+/// Number of texels: with twice as many, a random number of 24 bits no longer chooses each of them.
 const TEXELS: usize = 1 << 23;
 
 /// Bytes of one texel with all its channels, of which three are read.
 const TEXEL_BYTES: usize = 256;
+
+/// A texel that no part of the file has set: a NaN that files do not have.
+const UNREAD: [f32; 3] = [f32::from_bits(0x7fc5_a5a5); 3];
 
 /// The brightest light that is kept, so that no sum over a picture is infinite.
 const BRIGHTEST: f32 = 1e18;
@@ -61,7 +64,11 @@ impl Panorama {
         for header in &meta.headers {
             let (width, height) = (header.layer_size.width(), header.layer_size.height());
             ensure!(
-                width.max(height) <= SIDE && width * height <= TEXELS,
+                width.max(height) <= SIDE,
+                "{name}: is {width} x {height} texels; at most {SIDE} per side are read"
+            );
+            ensure!(
+                width * height <= TEXELS,
                 "{name}: is {width} x {height} texels; at most {TEXELS} are read, such as 4096 x 2048"
             );
             ensure!(!header.deep, "{name}: has deep data, which are not read; save it flat");
@@ -82,7 +89,7 @@ impl Panorama {
             .no_deep_data()
             .largest_resolution_level()
             .rgb_channels(
-                |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
+                |size, _| (size.width(), vec![UNREAD; size.area()]),
                 |(width, texels): &mut (usize, Vec<[f32; 3]>), at, (r, g, b): (f32, f32, f32)| {
                     texels[at.y() * *width + at.x()] = [r, g, b];
                 },
@@ -95,6 +102,11 @@ impl Panorama {
         let size = image.layer_data.size;
         let (_, texels) = image.layer_data.channel_data.pixels;
         let (width, height) = (size.width() as u32, size.height() as u32);
+        let is_unread = |texel: &[f32; 3]| texel[0].to_bits() == UNREAD[0].to_bits();
+        ensure!(
+            !texels.iter().any(is_unread),
+            "{name}: leaves out some of its {width} x {height} texels, it is damaged; save it again"
+        );
         Ok(Self { width, height, texels }.cleaned(name))
     }
 
@@ -108,17 +120,27 @@ impl Panorama {
             ));
         }
         let is_light = |value: &f32| (0.0..=BRIGHTEST).contains(value);
-        let is_wrong = |texel: &[f32; 3]| !texel.iter().all(is_light);
-        let mut wrong = self.texels.iter().enumerate().filter(|(_, texel)| is_wrong(texel));
-        if let Some((first, texel)) = wrong.next() {
-            let (x, y) = (first % width as usize, first / width as usize);
-            let count = 1 + wrong.count();
-            warnings.push(format!(
-                "{name}: texel {x}, {y} is {texel:?}; what is negative, infinite or no number is 0 ({count} in all)"
-            ));
+        let is_bright = |value: &f32| value.is_finite() && *value > BRIGHTEST;
+        let (mut black, mut dimmed) = (Vec::new(), Vec::new());
+        for (index, texel) in self.texels.iter_mut().enumerate() {
+            if texel.iter().all(is_light) {
+                continue;
+            }
+            let is_dimmed = texel.iter().all(|value| is_light(value) || is_bright(value));
+            let list = if is_dimmed { &mut dimmed } else { &mut black };
+            list.push((index, *texel));
+            *texel = if is_dimmed { texel.map(|value| value.min(BRIGHTEST)) } else { [0.0; 3] };
         }
-        for texel in &mut self.texels {
-            *texel = texel.map(|value| if is_light(&value) { value } else { 0.0 });
+        for (list, what) in [
+            (black, "negative, infinite or no number, so it is black".to_owned()),
+            (dimmed, format!("above {BRIGHTEST:e}, so it is dimmed to that")),
+        ] {
+            if let Some((index, texel)) = list.first() {
+                let (x, y) = (index % width as usize, index / width as usize);
+                let count = list.len();
+                warnings
+                    .push(format!("{name}: texel {x}, {y} is {texel:?}: {what} ({count} in all)"));
+            }
         }
         (self, warnings)
     }
@@ -161,15 +183,43 @@ mod tests {
         let wrong = [f32::NAN, f32::INFINITY, -1.0, -0.0];
         let bytes = file(8, 4, |i| [1.0, wrong.get(i as usize).copied().unwrap_or(2.0), 3.0]);
         let (read, warnings) = Panorama::decode(&bytes, "a.exr").unwrap();
-        assert_eq!(read.texels[0], [1.0, 0.0, 3.0]);
-        assert_eq!(read.texels[2], [1.0, 0.0, 3.0]);
+        assert_eq!(read.texels[0], [0.0; 3]);
+        assert_eq!(read.texels[2], [0.0; 3]);
         assert_eq!(read.texels[4], [1.0, 2.0, 3.0]);
         assert_eq!(
             warnings,
             [
-                "a.exr: texel 0, 0 is [1.0, NaN, 3.0]; what is negative, infinite or no number is 0 (3 in all)"
+                "a.exr: texel 0, 0 is [1.0, NaN, 3.0]: negative, infinite or no number, so it is black (3 in all)"
             ]
         );
+    }
+
+    #[test]
+    fn too_bright_a_texel_keeps_some_light() {
+        let bytes = file(8, 4, |i| if i == 9 { [2e18, 0.0, 1.0] } else { [1.0; 3] });
+        let (read, warnings) = Panorama::decode(&bytes, "a.exr").unwrap();
+        assert_eq!(read.texels[9], [1e18, 0.0, 1.0]);
+        let line =
+            "a.exr: texel 1, 1 is [2e18, 0.0, 1.0]: above 1e18, so it is dimmed to that (1 in all)";
+        assert_eq!(warnings, [line]);
+    }
+
+    /// A file whose table of rows names the first row again and again, and no other.
+    #[test]
+    fn a_file_that_leaves_out_rows_is_refused() {
+        use exr::prelude::{Encoding, Image, SpecificChannels, WritableImage};
+        let channels = SpecificChannels::rgb(|_| (1.0f32, 2.0f32, 3.0f32));
+        let image = Image::from_encoded_channels((8, 4), Encoding::UNCOMPRESSED, channels);
+        let mut bytes = Cursor::new(Vec::new());
+        image.write().to_buffered(&mut bytes).unwrap();
+        let mut bytes = bytes.into_inner();
+        // Rows are the last part of the file, each with its number, its size, and 8 texels of 12 bytes; before them
+        // there is the table.
+        let table = bytes.len() - 4 * (8 + 8 * 12) - 4 * 8;
+        let first: [u8; 8] = bytes[table..table + 8].try_into().unwrap();
+        assert_eq!(u64::from_le_bytes(first), table as u64 + 32);
+        (1..4).for_each(|row| bytes[table + 8 * row..][..8].copy_from_slice(&first));
+        assert!(error(&bytes).contains("leaves out some of its 8 x 4 texels"), "{}", error(&bytes));
     }
 
     #[test]

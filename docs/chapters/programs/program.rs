@@ -60,6 +60,14 @@ impl<'a> Programs<'a> {
         Ok(command)
     }
 
+    /// A command that runs the program `name` even if it is older than its sources; `None` if it is missing.
+    pub fn old(&self, name: &str) -> Option<Command> {
+        let file = self.folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+        let mut command = file.is_file().then(|| Command::new(file))?;
+        command.current_dir(&self.project.root);
+        Some(command)
+    }
+
     /// The folder above the folder of a profile, in which Cargo builds them.
     pub fn target(&self) -> &Path {
         self.folder.parent().unwrap_or(&self.folder)

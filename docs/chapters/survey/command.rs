@@ -123,8 +123,10 @@ impl<'a> Survey<'a> {
     pub fn run(mut self, out: &Path) -> Result<()> {
         interrupt::listen();
         check_place(out)?;
+        // A program that is built, even if it is old, can refuse a device before minutes of building.
+        self.check_device(true)?;
         self.build()?;
-        self.check_device()?;
+        self.check_device(false)?;
         let folder = NewFolder::temporary()?;
         let prices = PriceList::new(self.programs);
         let steps = self.steps(folder.path(), &prices);
@@ -257,10 +259,22 @@ impl<'a> Survey<'a> {
         child::show(&mut cargo).map(drop)
     }
 
-    /// Fails early if there is no device, or `--device` matches none.
-    fn check_device(&self) -> Result<()> {
+    /// Fails early if there is no device, or `--device` matches none; `old` lets an old program decide that, and a
+    /// missing one pass.
+    fn check_device(&self, old: bool) -> Result<()> {
         let Some(chapter) = self.programs.project.chapters.last() else { return Ok(()) };
-        let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
+        let mut command = match self.programs.command(&chapter.name) {
+            Ok(command) if !old => command,
+            Err(_) if old => match self.programs.old(&chapter.name) {
+                Some(command) => command,
+                None => return Ok(()),
+            },
+            // It will be run when everything is built; or it did not build, which the card says.
+            _ => return Ok(()),
+        };
+        command.arg("--list-controls");
+        command.args(self.device.into_iter().flat_map(|device| ["--device", device]));
+        let ended = child::run(&mut command, self.limit)?;
         if let Some(line) = ended.refused().filter(|_| self.device.is_some()) {
             return Err(UsageError(line).into());
         }

@@ -41,7 +41,7 @@ impl FaultRow {
         let Self { rays, wrong, places, failed, .. } = self;
         match (failed, wrong) {
             (Some(why), _) => why.clone(),
-            (None, 0) => format!("not seen here, {rays} rays"),
+            (None, 0) => format!("not seen here: all {rays} rays are right"),
             _ => {
                 format!("{wrong} of {rays} rays are wrong {}", places.join(", ")).trim().to_owned()
             }
