@@ -37,6 +37,8 @@ common::shader_enum! {
         AreaLight,
         /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
         Mirror,
+        /// Surfaces of microfacets, `Pr` and `Pm` (45).
+        RoughMetal = "rough metal",
         /// Light that surfaces scatter onto others (11).
         Bounces,
         /// Surfaces that let light in, `illum` 4, 6, 7 or 9 (27).

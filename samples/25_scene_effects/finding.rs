@@ -5,7 +5,7 @@ use common::model::text::quoted;
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
-use crate::{Composition, Effects, Finish, SceneLight, is_glass};
+use crate::{Composition, Effects, Finish, SceneLight, is_glass, is_rough, rough_textures};
 
 /// The need for an effect, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,7 +60,9 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Triangles => {
             count(scene.scene.instances.len(), "placed mesh").map(|n| n.replace("meshs", "meshes"))
         }
-        Textures => worn(&|m| m.base_texture.is_some(), "has a texture"),
+        Textures => {
+            worn(&|m| m.base_texture.is_some() || rough_textures(m).is_some(), "has a texture")
+        }
         FilteredTextures if !scene.filtered => None,
         FilteredTextures => worn(&|m| m.base_texture.is_some(), "has a texture, to be filtered"),
         CutOut => worn(&|m| m.opacity_texture.is_some(), "has an opacity texture")
@@ -83,12 +85,13 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         // At depth 0 no ray is reflected or refracted.
         Mirror | Glass if scene.depth == 0 => None,
         Mirror => {
-            let is_mirror = |m: &Material| m.is_mirror() && !is_glass(m);
+            let is_mirror = |m: &Material| m.is_mirror() && !is_glass(m) && !is_rough(m);
             worn(&is_mirror, "mirrors").or_else(|| {
                 let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
                 mirrors.then(|| "the plane mirrors".to_owned())
             })
         }
+        RoughMetal => worn(&is_rough, "has a roughness"),
         Bounces => count(scene.bounces as usize, "bounce").map(|n| format!("{n} of light")),
         Glass => worn(&is_glass, "is glass"),
         Emitters if !scene.scatters() => None,
@@ -118,6 +121,7 @@ fn why_not(effect: Effect) -> &'static str {
         DirectionalShadows => "no directional light casts shadows",
         AreaLight => "no light that casts shadows has a size",
         Mirror => "nothing in use mirrors, or paths end at once",
+        RoughMetal => "no material in use has a roughness",
         Bounces => "no bounces",
         Glass => "no material in use is glass, or paths end at once",
         Emitters => "no sphere and no mesh shines, or nothing scatters light",

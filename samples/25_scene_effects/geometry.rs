@@ -8,6 +8,7 @@ use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform}
 use effects::{Composition, EmitterAddresses, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
 
+use crate::microfacets::{MicrofacetRecord, RoughOnGpu};
 use crate::recipe::{GeometryKind, Recipe};
 use crate::world::Shapes;
 
@@ -24,6 +25,7 @@ pub struct SceneGeometry {
     tops: Vec<(u32, AccelerationStructure)>,
     _levels: Vec<AccelerationStructure>,
     _buffers: Vec<Buffer>,
+    _rough: Option<RoughOnGpu>,
 }
 
 /// An instance before it knows its hit record.
@@ -49,6 +51,7 @@ impl SceneGeometry {
             tops: Vec::new(),
             _levels: Vec::new(),
             _buffers: Vec::new(),
+            _rough: None,
         };
         let bounds = from.scene.bounds_of_instances();
         for ((index, instance), bounds) in from.scene.instances.iter().enumerate().zip(bounds) {
@@ -86,6 +89,14 @@ impl SceneGeometry {
         let as_they_come: Vec<u32> = (0..glasses.len() as u32).collect();
         geometry.shapes.glasses = geometry.records(gpu, "glasses", &glasses, &as_they_come)?;
         geometry.shapes.glass_count = glasses.len() as u32;
+        let microfacets = from.microfacets_to_read().into_iter();
+        let records: Vec<_> = microfacets.map(|own| MicrofacetRecord::new(own, -1.0)).collect();
+        if !records.is_empty() {
+            let rough = RoughOnGpu::new(gpu, &records)?;
+            geometry.shapes.rough = rough.rough.address;
+            geometry.shapes.rough_count = records.len() as u32;
+            geometry._rough = Some(rough);
+        }
         let bounds: Vec<_> = from.heightfield.iter().map(crate::ground::bounds).collect();
         geometry.level(gpu, GeometryKind::Ground, &bounds)?;
         Ok(geometry)

@@ -18,6 +18,7 @@ mod glass_of_27;
 mod lamps;
 #[path = "../28_depth_of_field/lens.rs"]
 mod lens;
+mod rough;
 mod shapes;
 #[path = "../18_swept_spheres/strands.rs"]
 mod strands;
@@ -32,5 +33,6 @@ pub use finish::{Finish, Pattern};
 pub use glass::{Glass, GlassKind, is_body, is_glass};
 pub use lamps::Lamps;
 pub use lens::{Lens, ThinLens};
+pub use rough::{is_rough, rough_textures};
 pub use shapes::{Box, Face, Solid, Sphere};
 pub use strands::{Node, Segment, Strands};

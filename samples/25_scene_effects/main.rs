@@ -3,10 +3,15 @@
 //! New since 12_infinite_plane: effects found from the scene, shaders in pieces, stages and groups that
 //! come and go, and one more pipeline that has everything, to be compared with.
 
+#[path = "../45_rough_metal/albedo.rs"]
+mod albedo;
 mod contents;
 mod costs;
 mod geometry;
 mod ground;
+#[allow(dead_code, reason = "45 takes other materials")]
+#[path = "../45_rough_metal/microfacets.rs"]
+mod microfacets;
 mod panel;
 mod recipe;
 mod report;
@@ -29,6 +34,7 @@ use costs::Costs;
 use effects::{Composition, Effect, Finding, findings, needed};
 use geometry::SceneGeometry;
 use glam::Vec3;
+use microfacets::RoughAddresses;
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
 use serde_json::Value;
@@ -74,6 +80,7 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         world: Address,
+        rough: Address<RoughAddresses>,
     }
 }
 
@@ -248,8 +255,12 @@ impl Demo {
         // ANCHOR: trace
         let Variant { key, pipeline, sbt } =
             self.pipelines.choose(frame, &geometry.scene.textures, recipe, pipeline)?;
-        let push =
-            Push { camera, scene: geometry.scene.addresses, world: self.world.address.into() };
+        let push = Push {
+            camera,
+            scene: geometry.scene.addresses,
+            world: self.world.address.into(),
+            rough: geometry.shapes.rough.into(),
+        };
         let descriptors = [
             Descriptor::AccelerationStructure(geometry.top_level(frame.gpu, *key)?),
             Descriptor::StorageImage(frame.image),

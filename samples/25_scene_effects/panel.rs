@@ -2,7 +2,7 @@
 
 use common::Controls;
 use common::Variant;
-use effects::{Finding, is_glass};
+use effects::{Finding, is_glass, is_rough};
 use glam::Vec3;
 
 use crate::Demo;
@@ -32,7 +32,8 @@ impl Demo {
             self.repainted = true;
         }
         let mut mirror = material.is_mirror() && !glass;
-        if c.checkbox("mirror", &mut mirror) {
+        // A rough surface is more or less of a mirror already.
+        if !is_rough(material) && c.checkbox("mirror", &mut mirror) {
             material.illumination = if mirror { 3 } else { 2 };
             if mirror && material.specular == Vec3::ZERO {
                 material.specular = Vec3::splat(0.5);

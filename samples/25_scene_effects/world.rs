@@ -11,7 +11,9 @@ use effects::{
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use crate::albedo::Albedo;
 use crate::ground::Ground;
+use crate::microfacets::{MicrofacetRecord, RoughAddresses};
 use crate::shape::HeightfieldShape;
 
 /// Addresses of the shapes; 0 where there are none.
@@ -35,6 +37,10 @@ pub struct Shapes {
     pub glasses: vk::DeviceAddress,
     /// Number of those.
     pub glass_count: u32,
+    /// The address of a [`RoughAddresses`].
+    pub rough: vk::DeviceAddress,
+    /// Number of materials, if one in use has microfacets.
+    pub rough_count: u32,
     /// Addresses of the emitters, if there are any.
     pub emitters: Option<EmitterAddresses>,
 }
@@ -88,13 +94,14 @@ common::shader_struct! {
         pub plane_on: u32,
         pub finish_count: u32,
         pub glass_count: u32,
+        pub rough_count: u32,
         pub moving: u32,
         pub filtered: u32,
     }
 }
 
 /// Layouts of the structures behind the world's address.
-pub const LAYOUTS: [StructLayout; 19] = [
+pub const LAYOUTS: [StructLayout; 22] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -114,6 +121,9 @@ pub const LAYOUTS: [StructLayout; 19] = [
     EmitterAddresses::LAYOUT,
     Emitter::LAYOUT,
     Column::LAYOUT,
+    RoughAddresses::LAYOUT,
+    MicrofacetRecord::LAYOUT,
+    Albedo::LAYOUT,
 ];
 
 impl World {
@@ -166,6 +176,7 @@ impl World {
             plane_on: scene.plane.is_some().into(),
             finish_count: scene.finishes_to_read().len() as u32,
             glass_count: shapes.glass_count,
+            rough_count: shapes.rough_count,
             moving: scene.moving() as u32,
             filtered: scene.filtered.into(),
         }

@@ -34,7 +34,7 @@ common::shader_struct! {
 
 common::shader_struct! {
     /// The edges of a row.
-    pub struct Row {
+    pub struct SkyRow {
         /// The cosine of the angle from straight up, at the upper edge.
         pub top: f32,
         /// By how much it is smaller at the lower edge.
@@ -50,7 +50,7 @@ common::shader_struct! {
         /// The table that chooses a texel.
         pub columns: Address<Column>,
         /// The rows.
-        pub rows: Address<Row>,
+        pub rows: Address<SkyRow>,
         /// Width and height of the picture.
         pub size: UVec2,
         /// Number of columns.
@@ -66,7 +66,7 @@ pub struct SkyTable {
     /// The texels.
     pub texels: Vec<Texel>,
     /// The rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SkyRow>,
     /// The table that chooses a texel.
     pub columns: Vec<Column>,
     /// Width and height.
@@ -100,7 +100,7 @@ impl SkyTable {
         let texels = map.texels.iter().enumerate().map(texel).collect();
         let row = |row| {
             let [top, bottom] = edges(map.height, row);
-            Row { top: top.cos() as f32, height: height(top, bottom) as f32 }
+            SkyRow { top: top.cos() as f32, height: height(top, bottom) as f32 }
         };
         let rows = (0..map.height).map(row).collect();
         Self { texels, rows, columns: table.columns, size: UVec2::new(map.width, map.height) }

@@ -15,6 +15,9 @@ struct Hit {
 #ifdef TERMINATOR
     vec3 terminator_offset;  // from the flat triangle to the round surface that its normals pretend
 #endif
+#ifdef ROUGH_TEXTURES
+    uint rough;       // what textures multiply roughness and metalness by, packed; of a material with such textures
+#endif
 #ifdef EFFECT_GLASS
     bool entering;    // the ray came from outside the body
 #endif
@@ -27,7 +30,7 @@ struct Hit {
 #ifdef TOLD_CONES
     vec2 cone;        // in: the ray's width and spread. Out, in x: the part that lines cover
 #endif
-};                    // 44 to 92 bytes
+};                    // 44 to 96 bytes
 
 // The ground and the plane are made of nothing that is in the list of materials.
 const uint MATERIAL_GROUND = -2;

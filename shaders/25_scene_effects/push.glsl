@@ -12,6 +12,7 @@
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
+#include "common/rough.glsl"
 #include "common/ray_time.glsl"
 #include "lens.glsl"
 
@@ -130,6 +131,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint plane_on;
     uint finish_count;    // of materials, if one in use has a finish; else 0
     uint glass_count;     // of materials, if one in use is glass; else 0
+    uint rough_count;     // of materials, if one in use has microfacets; else 0
     uint moving;          // whether anything moves while the shutter is open
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
@@ -138,6 +140,7 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     World world;
+    RoughAddresses rough;
 } push;
 
 // The kinds of light, one bit per kind; the largest number of lights; the kinds of geometry that rays

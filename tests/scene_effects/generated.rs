@@ -31,7 +31,7 @@ pub fn possible(mut set: Effects) -> Effects {
         set = set.without(Emitters);
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) {
-        set = set.without(Patterns).without(Glass);
+        set = set.without(Patterns).without(Glass).without(RoughMetal);
     }
     set
 }
@@ -84,7 +84,7 @@ pub fn all_pairs() -> Vec<Effects> {
 /// Returns whether something is visible, and no ray leaves it: only a pipeline without such rays computes no
 /// start.
 fn leaves_nothing(set: &Effects) -> bool {
-    let leaving = [PointShadows, DirectionalShadows, Mirror, Bounces, Glass, Emitters];
+    let leaving = [PointShadows, DirectionalShadows, Mirror, RoughMetal, Bounces, Glass, Emitters];
     set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)
 }
 
@@ -133,6 +133,9 @@ f 1/1 2/2 3/3 4/4
 o lattice
 usemtl pierced
 f 1/1 2/2 3/3 4/4
+o mat
+usemtl scuffed
+f 1/1 2/2 3/3 4/4
 ";
 
 const MATERIALS: &str = "newmtl plain
@@ -144,6 +147,12 @@ Kd 1 1 1
 Ks 0 0 0
 illum 2
 map_Kd checks.png
+newmtl scuffed
+Kd 0.6 0.4 0.3
+Pr 0.7
+Pm 0.9
+map_Pr checks.png
+map_Pm checks.png
 newmtl pierced
 Kd 0.3 0.5 0.3
 Ks 0 0 0
@@ -211,6 +220,15 @@ fn text(set: Effects, random: &mut Random) -> String {
             n(0.2, 1.0)
         );
     }
+    if has(RoughMetal) {
+        text += &format!(
+            "[[material]]\nname = \"brushed\"\ncolor = [{}, 0.7, 0.4]\nroughness = {}\n\
+             metallic = {}\n",
+            n(0.5, 1.0),
+            n(0.0, 1.0),
+            n(0.0, 1.0)
+        );
+    }
     if has(Emitters) {
         text += &format!(
             "[[material]]\nname = \"lamp\"\ncolor = [{}, 0, 0]\nemission = [{}, 3, 2]\n",
@@ -224,6 +242,8 @@ fn text(set: Effects, random: &mut Random) -> String {
             ("tent", "sheet", true),
             ("tent", "crystal", has(Glass)),
             ("tent", "lamp", has(Emitters)),
+            ("tent", "brushed", has(RoughMetal)),
+            ("mat", "", has(RoughMetal) && has(Textures)),
             ("picture", "", has(Textures)),
             ("lattice", "", has(CutOut)),
         ];
@@ -243,9 +263,10 @@ fn text(set: Effects, random: &mut Random) -> String {
     } else {
         text = text.replace("model = \"model.obj\"\n", "");
     }
-    let materials = ["metal", "paint", "crystal"];
-    let worn = if has(Glass) { &materials[..] } else { &materials[..2] };
-    for (number, &material) in worn.iter().enumerate() {
+    let worn =
+        [("metal", true), ("paint", true), ("crystal", has(Glass)), ("brushed", has(RoughMetal))];
+    let worn = worn.iter().filter(|(_, is_worn)| *is_worn);
+    for (number, &(material, _)) in worn.enumerate() {
         let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
         let radius = n(0.3, 0.7);
         if has(Spheres) {

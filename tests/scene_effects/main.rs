@@ -6,6 +6,7 @@ mod generated;
 mod light;
 mod lines;
 mod plots;
+mod rough;
 mod why;
 
 use std::collections::BTreeSet;
@@ -193,16 +194,17 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
     // Position, distance, normal, material and colour; the start of new rays, height and face; the offset to
-    // the round surface; the body it came into; the emitter; its curvature; and the ray's cone. A shadow ray
+    // the round surface; roughness and metalness from textures; the body it came into; the emitter; its curvature; and the ray's cone. A shadow ray
     // has its own payload, a bool.
     let cones = effects.has_any(&[Plane, Heightfield, Wireframe, FilteredTextures]);
-    let leaves = shadows || effects.has_any(&[Mirror, Bounces, Glass]);
+    let leaves = shadows || effects.has_any(&[Mirror, RoughMetal, Bounces, Glass]);
     let payload = 11
         + 4 * usize::from(leaves)
         + 3 * usize::from(lifts && effects.has(Triangles))
+        + usize::from(effects.has(RoughMetal) && effects.has(Textures))
         + usize::from(effects.has(Glass))
-        + usize::from(effects.has(Emitters) && effects.has(Bounces))
-        + usize::from(cones && effects.has_any(&[Mirror, Glass]))
+        + usize::from(effects.has(Emitters) && effects.has_any(&[RoughMetal, Bounces]))
+        + usize::from(cones && effects.has_any(&[Mirror, RoughMetal, Glass]))
         + 2 * usize::from(effects.has_any(&[Wireframe, FilteredTextures]));
     for stage in stages {
         let path = stage["path"].as_str().unwrap();
@@ -213,7 +215,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         };
         assert_eq!(stage["module"]["payload"], 4 * floats, "{name}: {path}");
     }
-    assert!(4 * payload <= 92, "{name}");
+    assert!(4 * payload <= 96, "{name}");
 }
 
 fn set_of(effects: &[Effect]) -> Effects {

@@ -61,7 +61,7 @@ impl Default for Microfacet {
 
 impl Material {
     /// The textures that are named.
-    pub(crate) fn textures(&mut self) -> impl Iterator<Item = &mut Option<usize>> {
+    pub fn textures(&mut self) -> impl Iterator<Item = &mut Option<usize>> {
         let microfacet = self.microfacet.iter_mut().flat_map(|microfacet| {
             [&mut microfacet.roughness_texture, &mut microfacet.metallic_texture]
         });

@@ -152,6 +152,7 @@ impl Description {
                 materials.len() - 1
             });
             let wrong = |what: &'static str| source.error(paint.span().start, what);
+            paint.get_ref().check_rough().map_err(wrong)?;
             paint.get_ref().apply(&mut materials[number]);
             finishes[number] = paint.get_ref().finish().map_err(wrong)?;
             if is_glass(&materials[number]) {

@@ -130,6 +130,10 @@ pub(super) struct MaterialTable {
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) opacity: Option<f32>,
     pub(super) mirror: Option<bool>,
+    #[serde(default, deserialize_with = "bounded::maybe_part")]
+    pub(super) roughness: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_part")]
+    pub(super) metallic: Option<f32>,
     #[serde(default, deserialize_with = "bounded::maybe_glass")]
     pub(super) glass: Option<GlassKind>,
     #[serde(default, deserialize_with = "bounded::maybe_index")]

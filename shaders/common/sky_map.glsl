@@ -1,7 +1,10 @@
+// Taught by 46_environment.
+//
 // The picture of the sky: the light of a direction, and directions chosen by their light.
 //
 // Row 0 is up, and the middle column looks along -z, with x at its right.
-#include "common/solid_angle.glsl"
+#include "sky.glsl"
+#include "solid_angle.glsl"
 
 const float TURN = 6.283185307;
 
@@ -27,7 +30,7 @@ uint chosen_texel(SkyAddresses sky, vec2 u) {
 // A direction in a texel, uniform in its solid angle: even around, and even in height.
 vec3 direction_in(SkyAddresses sky, float rotation, uint texel, vec2 u) {
     uvec2 at = uvec2(texel % sky.size.x, texel / sky.size.x);
-    Row row = sky.rows.at[at.y];
+    SkyRow row = sky.rows.at[at.y];
     float y = row.top - u.y * row.height;
     float radius = sqrt(max((1.0 - y) * (1.0 + y), 0.0));
     // From -pi to pi: beyond, Vulkan says nothing of a sine's error.
