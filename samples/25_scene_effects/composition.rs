@@ -7,7 +7,7 @@ use common::scene::{Camera, DiskLight, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
 use crate::rough::roughen;
-use crate::{Box, Face, Finish, Solid, Sphere, Strands, ThinLens, is_glass};
+use crate::{Box, Environment, Face, Finish, Solid, Sphere, Strands, ThinLens, is_glass};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,6 +91,8 @@ pub struct Composition {
     pub filtered: bool,
     /// Brightness of the sky, 0 to 1.
     pub sky: f32,
+    /// The picture that is the sky, if it is one.
+    pub environment: Option<Environment>,
     /// Rays a pixel.
     pub samples: u32,
     /// Shadow rays a hit, to a light that has a size.
@@ -139,6 +141,7 @@ impl Composition {
             heightfield: None,
             filtered: false,
             sky: 1.0,
+            environment: None,
             samples: 1,
             light_samples: 16,
             depth: 4,

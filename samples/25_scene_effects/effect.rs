@@ -45,6 +45,8 @@ common::shader_enum! {
         Glass,
         /// Spheres and meshes that shine on others, `Ke` above 0 (29).
         Emitters,
+        /// Light from a picture of the sky (46).
+        Environment,
         /// Marble, wood or a checker that a surface is cut from (13).
         Patterns,
         /// Lines along the edges of triangles (20).

@@ -9,6 +9,7 @@ mod composition;
 mod effect;
 #[path = "../29_emitters/emitters.rs"]
 mod emitters;
+mod environment;
 mod file;
 mod finding;
 mod finish;
@@ -27,6 +28,7 @@ pub use alias::Column;
 pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, MAX_LIGHTS, SceneLight};
 pub use effect::{Effect, Effects};
 pub use emitters::{Emitter, EmitterAddresses, Emitters};
+pub use environment::{Environment, SKIES};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
 pub use finish::{Finish, Pattern};

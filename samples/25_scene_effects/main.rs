@@ -5,6 +5,9 @@
 
 #[path = "../45_rough_metal/albedo.rs"]
 mod albedo;
+#[allow(dead_code, reason = "29 also makes tables of checked weights")]
+#[path = "../29_emitters/alias.rs"]
+mod alias;
 mod contents;
 mod costs;
 mod geometry;
@@ -18,6 +21,9 @@ mod report;
 mod scenes;
 #[path = "../21_heightfield/shape.rs"]
 mod shape;
+#[allow(dead_code, reason = "46 compares sums, and divides texels")]
+#[path = "../46_environment/sky.rs"]
+mod sky;
 mod why;
 mod world;
 
@@ -31,13 +37,14 @@ use common::output;
 use common::scene::{Camera, CameraBasis, SceneAddresses, SceneOnGpu, SceneOptions, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use costs::Costs;
-use effects::{Composition, Effect, Finding, findings, needed};
+use effects::{Composition, Effect, Environment, Finding, findings, needed};
 use geometry::SceneGeometry;
 use glam::Vec3;
 use microfacets::RoughAddresses;
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
 use serde_json::Value;
+use sky::SkyAddresses;
 use why::Why;
 use world::World;
 
@@ -69,6 +76,10 @@ struct Demo {
     measure: bool,
     light: u32,
     material: u32,
+    /// The choice among the scene's own sky and [`effects::SKIES`].
+    sky: u32,
+    /// The scene's own.
+    own_sky: Option<Environment>,
     /// The reason why the chosen scene cannot be opened.
     trouble: Option<anyhow::Error>,
     options: SceneOptions,
@@ -81,6 +92,7 @@ common::shader_struct! {
         scene: SceneAddresses,
         world: Address,
         rough: Address<RoughAddresses>,
+        sky: Address<SkyAddresses>,
     }
 }
 
@@ -97,6 +109,7 @@ impl Sample for Demo {
         output::warn(&scene.scene.model.warnings);
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let camera = scene.scene.camera;
+        let own_sky = scene.environment.clone();
         Ok(Self {
             scene,
             geometry: None,
@@ -113,6 +126,8 @@ impl Sample for Demo {
             measure: false,
             light: 1,
             material: 0,
+            sky: 0,
+            own_sky,
             trouble: None,
             options: setup.options,
         })
@@ -137,6 +152,7 @@ impl Sample for Demo {
             c.slider("light size", &mut light.disk.radius, 0.0..=1.0);
             c.checkbox("light shadows", &mut light.shadows);
         }
+        self.choose_sky(c);
         self.polish(c);
         self.tell(c);
         c.camera(&mut self.camera);
@@ -199,7 +215,8 @@ impl Demo {
                 output::warn(&scene.scene.model.warnings);
                 self.camera = scene.scene.camera;
                 (self.scene, self.geometry) = (scene, None);
-                (self.light, self.material) = (1, 0);
+                (self.light, self.material, self.sky) = (1, 0, 0);
+                self.own_sky = self.scene.environment.clone();
                 self.trouble = None;
             }
             Err(error) => self.trouble = Some(error),
@@ -260,6 +277,7 @@ impl Demo {
             scene: geometry.scene.addresses,
             world: self.world.address.into(),
             rough: geometry.shapes.rough.into(),
+            sky: geometry.shapes.sky.into(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(geometry.top_level(frame.gpu, *key)?),

@@ -144,7 +144,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
         .skip(recipe.skipped(gpu))
         .raygen("camera.rgen")
         .miss("sky.rmiss");
-    if recipe.effects.has_any(&[PointShadows, DirectionalShadows, Emitters]) {
+    if recipe.effects.has_any(&[PointShadows, DirectionalShadows, Emitters, Environment]) {
         builder = builder.miss("common/shadow.rmiss");
     }
     for kind in recipe.kinds() {

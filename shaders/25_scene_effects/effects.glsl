@@ -21,6 +21,7 @@
 #define EFFECT_BOUNCES
 #define EFFECT_GLASS
 #define EFFECT_EMITTERS
+#define EFFECT_ENVIRONMENT
 #define EFFECT_PATTERNS
 #define EFFECT_WIREFRAME
 #define EFFECT_ANTI_ALIASING
@@ -32,7 +33,7 @@
 #if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
 #define SHADOWS
 #endif
-#if defined(SHADOWS) || defined(EFFECT_EMITTERS)
+#if defined(SHADOWS) || defined(EFFECT_EMITTERS) || defined(EFFECT_ENVIRONMENT)
 #define SHADOW_RAYS
 #endif
 // Surfaces that send a ray on: a path has several.
@@ -44,8 +45,12 @@
 #define RANDOM_DIRECTIONS
 #endif
 // Light that shadow rays look for in one direction of many.
-#ifdef EFFECT_EMITTERS
+#if defined(EFFECT_EMITTERS) || defined(EFFECT_ENVIRONMENT)
 #define SAMPLED_LIGHT
+#endif
+// Paths find the same light at random.
+#if defined(SAMPLED_LIGHT) && defined(RANDOM_DIRECTIONS)
+#define FOUND_TWICE
 #endif
 // Emitters are found in two ways: by shadow rays, and by rays in random directions.
 #if defined(EFFECT_EMITTERS) && defined(RANDOM_DIRECTIONS)

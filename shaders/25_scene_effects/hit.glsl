@@ -2,7 +2,7 @@
 // shader decides what follows. It has the fields of the effects in use, and no more.
 
 struct Hit {
-    vec3 position;    // on the surface, in the world
+    vec3 position;    // on the surface, in the world; of a miss, in x, how likely a shadow ray goes there
     float t;          // the distance along the ray; -1 for a miss
     vec3 normal;      // the normal to shade with: unit, on the side that the ray came from
     uint material;    // push.scene.materials.at[material], or MATERIAL_PLANE or MATERIAL_GROUND

@@ -25,7 +25,7 @@ struct Path {
 #ifdef EFFECT_GLASS
     uvec4 media;         // the bodies of glass that the next ray is in
 #endif
-#ifdef CHANCES
+#ifdef FOUND_TWICE
     float density;       // of the next ray's direction; NO_OTHER if no shadow ray could have gone there
 #endif
 };
@@ -63,6 +63,9 @@ vec2 numbers(Path path, uint dimension) {
 #include "scatterer.glsl"
 #ifdef EFFECT_EMITTERS
 #include "emitters.glsl"
+#endif
+#ifdef EFFECT_ENVIRONMENT
+#include "environment.glsl"
 #endif
 
 // The material of a hit, without its colour; and its reflectance seen straight on.
@@ -129,6 +132,9 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // is sampled, so that fewer values stay alive.
     vec3 reaching = path.throughput;
     if (hit.t < 0.0) {
+#if defined(EFFECT_ENVIRONMENT) && defined(FOUND_TWICE)
+        hit.color *= part_of_sky(path, hit);
+#endif
         path.color += reaching * hit.color;
         path.throughput = vec3(0.0);
     } else {
@@ -180,6 +186,9 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
 #ifdef EFFECT_EMITTERS
         path.color += asked(path, hit, by);
 #endif
+#ifdef EFFECT_ENVIRONMENT
+        path.color += from_sky(path, hit, by);
+#endif
 #ifdef SHADOWS
         RayOrigin start = shadow_start(hit);
 #endif
@@ -206,7 +215,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     }
 #ifdef PATHS
     float side = 1.0;
-#ifdef CHANCES
+#ifdef FOUND_TWICE
     path.density = NO_OTHER;
 #endif
 #ifdef EFFECT_GLASS
@@ -219,7 +228,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         float choice = numbers(path, DIMENSION_CHOICE).x;
         Bounce next = bounce(by.surface, choice, numbers(path, DIMENSION_BOUNCE));
         path.throughput *= by.continues * next.weight;
-#ifdef CHANCES
+#ifdef FOUND_TWICE
         path.density = density_of(by.surface, choice, next);
 #endif
         ray.direction = next.is_mirrored ? mirrored(ray.direction, hit.normal, hit.face)
@@ -237,7 +246,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     if (way == WAY_BOUNCE) {
         vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
         ray.direction = kept_above(on, hit.face);
-#ifdef CHANCES
+#ifdef FOUND_TWICE
         // The throughput was divided by `by.matte`: so that has not to be kept while lights are asked for.
         float again = largest(hit.color) / max(largest(path.throughput), 1e-30);
         path.density = again * likelihood(ray.direction, hit.normal, hit.face);

@@ -13,6 +13,7 @@
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
 #include "common/rough.glsl"
+#include "common/sky.glsl"
 #include "common/ray_time.glsl"
 #include "lens.glsl"
 
@@ -120,7 +121,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Lens lens;
     uint media[4];        // the bodies of glass that the camera is in
     DiskLight lights[MAX_LIGHTS];
-    float sky;            // how bright it is, 0 to 1
+    float sky;            // how bright it is, 0 to 1; 0 if it is a picture
+    float rotation;       // of the picture around the vertical, in turns
+    uint sky_on;          // whether there is a picture of the sky
     uint light_count;
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size
@@ -141,6 +144,7 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     World world;
     RoughAddresses rough;
+    SkyAddresses sky;
 } push;
 
 // The kinds of light, one bit per kind; the largest number of lights; the kinds of geometry that rays
@@ -156,6 +160,10 @@ const uint RAY_FLAGS = gl_RayFlagsNoneEXT;
 #else
 const uint RAY_FLAGS = gl_RayFlagsOpaqueEXT;
 #endif
+
+// The picture chooses the directions of shadow rays.
+const uint SAMPLER = 2;
+const uint SAMPLER_UNIFORM = 1;
 
 // As far as rays go.
 const float FAR = 1e30;

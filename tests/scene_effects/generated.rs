@@ -84,7 +84,16 @@ pub fn all_pairs() -> Vec<Effects> {
 /// Returns whether something is visible, and no ray leaves it: only a pipeline without such rays computes no
 /// start.
 fn leaves_nothing(set: &Effects) -> bool {
-    let leaving = [PointShadows, DirectionalShadows, Mirror, RoughMetal, Bounces, Glass, Emitters];
+    let leaving = [
+        PointShadows,
+        DirectionalShadows,
+        Mirror,
+        RoughMetal,
+        Bounces,
+        Glass,
+        Emitters,
+        Environment,
+    ];
     set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)
 }
 
@@ -174,6 +183,13 @@ fn text(set: Effects, random: &mut Random) -> String {
     text += &format!("[camera]\neye = [{x}, {y}, 7]\ntarget = [0, 0.6, 0]\nfield_of_view = 48\n");
     if has(DepthOfField) {
         text += &format!("lens = {{ diameter = {}, blades = 6 }}\n", n(0.05, 0.3));
+    }
+    if has(Environment) {
+        text += &format!(
+            "[sky]\nname = \"evening\"\nrotation = {}\nbrightness = {}\n",
+            n(-90.0, 90.0),
+            n(0.5, 1.5)
+        );
     }
     // Both kinds of light are everywhere; only the effect decides which casts shadows.
     let size = if has(AreaLight) { 0.2 } else { 0.0 };

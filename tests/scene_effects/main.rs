@@ -25,7 +25,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects of each, and the stages, listed by hand. Every pipeline has
 /// `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 20] = [
+const SCENES: [(&str, &[Effect], &[&str]); 21] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -109,6 +109,11 @@ const SCENES: [(&str, &[Effect], &[&str]); 20] = [
         &[Spheres, Plane, DirectionalShadows, AntiAliasing, MotionBlur],
         &["common/shadow.rmiss", "sphere.rint", "shape.rchit"],
     ),
+    (
+        "rough gold",
+        &[Triangles, RoughMetal, Bounces, Environment, AntiAliasing],
+        &["common/shadow.rmiss", "mesh.rchit"],
+    ),
     ("everything", Effect::ALL, &EVERY_STAGE),
 ];
 
@@ -168,7 +173,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     let expected: BTreeSet<String> = expected.iter().map(below_shaders).collect();
     assert_eq!(paths, expected.iter().map(String::as_str).collect(), "{name}");
     let lifts = effects.has_any(&[PointShadows, DirectionalShadows]);
-    let shadows = lifts || effects.has(Emitters);
+    let shadows = lifts || effects.has_any(&[Emitters, Environment]);
     for stage in stages {
         let (path, module) = (stage["path"].as_str().unwrap(), &stage["module"]);
         let place = format!("{name}: {path}");
@@ -309,7 +314,7 @@ fn a_model_alone_is_a_scene() {
 
 #[test]
 fn an_edit_that_changes_the_set_changes_the_pipeline() {
-    let cases: [(&str, &[&str], Effect, bool); 9] = [
+    let cases: [(&str, &[&str], Effect, bool); 10] = [
         ("opening", &["light size=0.2"], AreaLight, true),
         ("opening", &["light shadows=off"], DirectionalShadows, false),
         ("opening", &["material=black", "mirror=on"], Mirror, true),
@@ -318,6 +323,7 @@ fn an_edit_that_changes_the_set_changes_the_pipeline() {
         ("two kings", &["bounces=2"], Bounces, true),
         ("two kings", &["material=black", "glass=on"], Glass, true),
         ("crystal", &["depth=0"], Glass, false),
+        ("two kings", &["sky=evening", "sky rotation=30"], Environment, true),
         ("two kings", &["lens diameter=0.5", "focus=3"], DepthOfField, true),
     ];
     for (scene, edits, effect, there) in cases {
@@ -403,7 +409,7 @@ fn format_page() -> String {
 fn the_page_of_the_format_lists_every_key() {
     let page = format_page();
     // The keys that the file reader accepts, table by table.
-    let tables = ["[camera]", "[picture]", "[plane]", "[heightfield]"];
+    let tables = ["[camera]", "[picture]", "[sky]", "[plane]", "[heightfield]"];
     let lists = [
         "[[light]]",
         "[[material]]",
