@@ -127,7 +127,7 @@ impl Composition {
         });
         let lights = lights.collect();
         let mut composition = Self {
-            finishes: vec![Finish::NONE; scene.model.materials.len()],
+            finishes: scene.model.materials.iter().map(Finish::of).collect(),
             lens: pinhole(&scene.camera),
             scene,
             lights,

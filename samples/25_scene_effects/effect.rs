@@ -15,8 +15,10 @@ common::shader_enum! {
         Textures,
         /// The same, averaged over what a pixel sees of it (19).
         FilteredTextures = "filtered textures",
-        /// Surfaces with holes, `map_d` or `d` below 1 (03).
+        /// Surfaces with holes, `map_d` (03).
         CutOut = "cut-out",
+        /// Surfaces that are partly there, `d` below 1 (03).
+        Blended,
         /// Spheres that a shader intersects (08).
         Spheres,
         /// Boxes that a shader intersects (08).

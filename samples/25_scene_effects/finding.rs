@@ -5,7 +5,9 @@ use common::model::text::quoted;
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
-use crate::{Composition, Effects, Finish, SceneLight, is_glass, is_rough, rough_textures};
+use crate::{
+    Composition, Effects, Finish, SceneLight, is_blended, is_glass, is_rough, rough_textures,
+};
 
 /// The need for an effect, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,8 +67,9 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         }
         FilteredTextures if !scene.filtered => None,
         FilteredTextures => worn(&|m| m.base_texture.is_some(), "has a texture, to be filtered"),
-        CutOut => worn(&|m| m.opacity_texture.is_some(), "has an opacity texture")
-            .or_else(|| worn(&|m| m.opacity < 1.0, "is not opaque")),
+        CutOut => worn(&|m| m.opacity_texture.is_some() && !m.blended, "has an opacity texture"),
+        Blended => worn(&|m| m.opacity < 1.0, "is not opaque")
+            .or_else(|| worn(&is_blended, "has a texture that is not opaque")),
         Spheres => count(scene.spheres.len(), "sphere"),
         Boxes => count(scene.boxes.len(), "box").map(|n| n.replace("boxs", "boxes")),
         SweptSpheres => count(scene.strands.segments.len(), "segment"),
@@ -111,7 +114,8 @@ fn why_not(effect: Effect) -> &'static str {
         Triangles => "no mesh is placed",
         Textures => "no material in use has a texture",
         FilteredTextures => "no material in use has a texture, or none is to be filtered",
-        CutOut => "every material in use is opaque",
+        CutOut => "no material in use has holes",
+        Blended => "every material in use is opaque",
         Spheres => "no sphere",
         Boxes => "no box",
         SweptSpheres => "no strand",

@@ -31,7 +31,7 @@ pub use emitters::{Emitter, EmitterAddresses, Emitters};
 pub use environment::{Environment, SKIES};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
-pub use finish::{Finish, Pattern};
+pub use finish::{Finish, Pattern, is_blended};
 pub use glass::{Glass, GlassKind, is_body, is_glass};
 pub use lamps::Lamps;
 pub use lens::{Lens, ThinLens};

@@ -100,7 +100,7 @@ impl Recipe {
     fn hit_group(&self, kind: GeometryKind) -> HitGroup<'static> {
         match kind {
             // Geometry without holes is opaque: the device calls no any-hit shader for it.
-            GeometryKind::Mesh if self.effects.has(CutOut) => {
+            GeometryKind::Mesh if self.effects.has_any(&[CutOut, Blended]) => {
                 HitGroup::triangles().closest_hit("mesh.rchit").any_hit("cut_out.rahit")
             }
             GeometryKind::Mesh => HitGroup::triangles().closest_hit("mesh.rchit"),
@@ -150,7 +150,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
     for kind in recipe.kinds() {
         builder = builder.hit(recipe.hit_group(kind));
     }
-    if recipe.effects.has_any(&[Textures, CutOut]) {
+    if recipe.effects.has_any(&[Textures, CutOut, Blended]) {
         builder = builder.textures(textures);
     }
     let defines: Vec<String> = recipe.effects.all().map(Effect::define).collect();

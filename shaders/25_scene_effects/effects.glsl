@@ -7,6 +7,7 @@
 #define EFFECT_TEXTURES
 #define EFFECT_FILTERED_TEXTURES
 #define EFFECT_CUT_OUT
+#define EFFECT_BLENDED
 #define EFFECT_SPHERES
 #define EFFECT_BOXES
 #define EFFECT_SWEPT_SPHERES
@@ -30,6 +31,9 @@
 #endif
 
 // Needed by several effects.
+#if defined(EFFECT_CUT_OUT) || defined(EFFECT_BLENDED)
+#define SEEN_THROUGH
+#endif
 #if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
 #define SHADOWS
 #endif

@@ -81,6 +81,7 @@ struct Finish {
     vec3 ink;        // the colour of lines
     float lines;     // how wide they are, in pixels; 0 for none
     uint pattern;
+    uint blended;    // the alpha of its texture is how much of it is there, not where it has holes
 };
 
 struct Ground {
@@ -154,8 +155,8 @@ layout(constant_id = 1) const uint LIGHTS = 4;
 layout(constant_id = 2) const uint RAY_MASK = 0xff;
 layout(constant_id = 3) const uint PATTERNS = 14;
 
-// The flags of every ray: without cut-outs, the device need not look for an any-hit shader.
-#ifdef EFFECT_CUT_OUT
+// The flags of every ray: if nothing is seen through, the device need not look for an any-hit shader.
+#ifdef SEEN_THROUGH
 const uint RAY_FLAGS = gl_RayFlagsNoneEXT;
 #else
 const uint RAY_FLAGS = gl_RayFlagsOpaqueEXT;

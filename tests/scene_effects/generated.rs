@@ -39,7 +39,7 @@ pub fn possible(mut set: Effects) -> Effects {
 /// The effects required by an effect: holes, textures and lines are on triangles.
 fn needed_by(effect: Effect) -> &'static [Effect] {
     match effect {
-        Textures | CutOut | Wireframe => &[Triangles],
+        Textures | CutOut | Blended | Wireframe => &[Triangles],
         FilteredTextures => &[Triangles, Textures],
         MotionBlur => &[Spheres],
         _ => &[],
@@ -116,6 +116,8 @@ pub fn write(folder: &Path, name: &str, set: Effects, random: &mut Random) -> Pa
         _ => image::Rgba([40, 120, 180, 0]),
     };
     image::RgbaImage::from_fn(16, 16, checks).save(folder.join("checks.png")).unwrap();
+    let gauze = |x: u32, y: u32| image::Rgba([255, 255, 255, (8 * (x + y)) as u8]);
+    image::RgbaImage::from_fn(16, 16, gauze).save(folder.join("gauze.png")).unwrap();
     let path = folder.join(name).with_extension("toml");
     fs::write(&path, text(set, random)).unwrap();
     path
@@ -142,6 +144,9 @@ f 1/1 2/2 3/3 4/4
 o lattice
 usemtl pierced
 f 1/1 2/2 3/3 4/4
+o veil
+usemtl veil
+f 1/1 2/2 3/3 4/4
 o mat
 usemtl scuffed
 f 1/1 2/2 3/3 4/4
@@ -162,6 +167,16 @@ Pr 0.7
 Pm 0.9
 map_Pr checks.png
 map_Pm checks.png
+newmtl veil
+Kd 0.7 0.3 0.5
+Ks 0 0 0
+illum 2
+d 0.6
+newmtl gauze
+Kd 0.3 0.4 0.6
+Ks 0 0 0
+illum 2
+map_d gauze.png
 newmtl pierced
 Kd 0.3 0.5 0.3
 Ks 0 0 0
@@ -228,6 +243,9 @@ fn text(set: Effects, random: &mut Random) -> String {
             text += &format!("lines = {}\nink = [0.1, 0, 0.2]\n", n(0.5, 3.0));
         }
     }
+    if has(Blended) {
+        text += "[[material]]\nname = \"gauze\"\nblended = true\n";
+    }
     if has(Glass) {
         text += &format!(
             "[[material]]\nname = \"crystal\"\nglass = \"thick\"\nindex = {}\n\
@@ -262,6 +280,8 @@ fn text(set: Effects, random: &mut Random) -> String {
             ("mat", "", has(RoughMetal) && has(Textures)),
             ("picture", "", has(Textures)),
             ("lattice", "", has(CutOut)),
+            ("lattice", "gauze", has(Blended)),
+            ("veil", "", has(Blended)),
         ];
         for (mesh, material, placed) in pieces {
             if placed {

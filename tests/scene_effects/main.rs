@@ -1,5 +1,6 @@
 //! 25_scene_effects: the effects a scene triggers; nothing else is compiled, and no picture changes.
 
+mod alpha;
 mod compiled;
 mod departures;
 mod generated;
@@ -7,6 +8,7 @@ mod light;
 mod lines;
 mod plots;
 mod rough;
+mod sky;
 mod why;
 
 use std::collections::BTreeSet;

@@ -9,21 +9,21 @@ use run::Chapter;
 use super::run;
 
 /// The picture of a scene whose file is in a folder.
-fn picture_in(folder: &Path, size: &str, text: &str) -> Picture {
+pub fn picture_in(folder: &Path, size: &str, text: &str) -> Picture {
     let file = folder.join("s.toml");
     fs::write(&file, format!("version = 1\n{text}")).unwrap();
     run(size, &["--scene", file.to_str().unwrap()], &[]).picture
 }
 
 /// The mean of values, and four standard errors, which are exceeded at random once in 16,000 times.
-fn estimate(values: &[f64]) -> (f64, f64) {
+pub fn estimate(values: &[f64]) -> (f64, f64) {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     (mean, 4.0 * (squares / (count - 1.0) / count).sqrt())
 }
 
-fn green(picture: &Picture) -> impl Iterator<Item = f64> {
+pub fn green(picture: &Picture) -> impl Iterator<Item = f64> {
     picture.pixels.iter().map(|pixel| f64::from(pixel[1]))
 }
 

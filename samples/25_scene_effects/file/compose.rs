@@ -21,7 +21,7 @@ use super::source::Source;
 use crate::composition::{close, pinhole};
 use crate::{
     Box, Composition, Environment, Finish, MAX_LIGHTS, Node, SKIES, Sphere, Strands, ThinLens,
-    is_body, is_glass,
+    is_blended, is_body, is_glass,
 };
 
 /// Pieces, spheres, boxes, solids and materials, each.
@@ -162,7 +162,7 @@ impl Description {
         materials: &mut Vec<Material>,
         source: &Source,
     ) -> Result<(Numbers, Vec<Finish>)> {
-        let mut finishes = vec![Finish::NONE; materials.len()];
+        let mut finishes: Vec<_> = materials.iter().map(Finish::of).collect();
         let mut numbers = numbers(materials.iter().map(|material| &material.name));
         let mut painted = HashSet::new();
         for paint in &self.material {
@@ -184,7 +184,8 @@ impl Description {
             let wrong = |what: &'static str| source.error(paint.span().start, what);
             paint.get_ref().check_rough().map_err(wrong)?;
             paint.get_ref().apply(&mut materials[number]);
-            finishes[number] = paint.get_ref().finish().map_err(wrong)?;
+            let blended = is_blended(&materials[number]).into();
+            finishes[number] = Finish { blended, ..paint.get_ref().finish().map_err(wrong)? };
             if is_glass(&materials[number]) {
                 paint.get_ref().check_glass().map_err(wrong)?;
             } else if paint.get_ref().index.is_some() || paint.get_ref().through.is_some() {

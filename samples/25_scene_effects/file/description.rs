@@ -157,6 +157,7 @@ pub(super) struct MaterialTable {
     pub(super) emission: Option<Vec3>,
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) opacity: Option<f32>,
+    pub(super) blended: Option<bool>,
     pub(super) mirror: Option<bool>,
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) roughness: Option<f32>,

@@ -63,6 +63,7 @@ impl MaterialTable {
         material.shininess = self.shininess.unwrap_or(material.shininess);
         material.emission = self.emission.unwrap_or(material.emission);
         material.opacity = self.opacity.unwrap_or(material.opacity);
+        material.blended = self.blended.unwrap_or(material.blended);
         if let Some(mirror) = self.mirror {
             material.illumination = if mirror { 3 } else { 2 };
         }
@@ -126,6 +127,7 @@ impl MaterialTable {
             ink: ink.unwrap_or(Finish::NONE.ink),
             lines: lines.unwrap_or(Finish::NONE.lines),
             pattern: pattern.map_or(Finish::NONE.pattern, u32::from),
+            ..Finish::NONE
         })
     }
 }
