@@ -6,7 +6,8 @@ use std::ops::RangeInclusive;
 use common::scene::{Camera, DiskLight, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
-use crate::{Box, Face, Finish, Solid, Sphere, Strands, ThinLens, is_glass};
+use crate::rough::roughen;
+use crate::{Box, Environment, Face, Finish, Solid, Sphere, Strands, ThinLens, is_glass};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,6 +91,8 @@ pub struct Composition {
     pub filtered: bool,
     /// Brightness of the sky, 0 to 1.
     pub sky: f32,
+    /// The picture that is the sky, if it is one.
+    pub environment: Option<Environment>,
     /// Rays a pixel.
     pub samples: u32,
     /// Shadow rays a hit, to a light that has a size.
@@ -124,7 +127,7 @@ impl Composition {
         });
         let lights = lights.collect();
         let mut composition = Self {
-            finishes: vec![Finish::NONE; scene.model.materials.len()],
+            finishes: scene.model.materials.iter().map(Finish::of).collect(),
             lens: pinhole(&scene.camera),
             scene,
             lights,
@@ -138,6 +141,7 @@ impl Composition {
             heightfield: None,
             filtered: false,
             sky: 1.0,
+            environment: None,
             samples: 1,
             light_samples: 16,
             depth: 4,
@@ -193,26 +197,27 @@ impl Composition {
         }
         for (number, material) in model.materials.iter_mut().enumerate() {
             if !used.contains(&number) {
-                (material.base_texture, material.opacity_texture) = (None, None);
+                material.textures().for_each(|slot| *slot = None);
                 self.finishes[number] = Finish::NONE;
             }
         }
-        let slots = |m: &Material| [m.base_texture, m.opacity_texture];
-        let textures: BTreeSet<usize> = model.materials.iter().flat_map(slots).flatten().collect();
+        let slots = model.materials.iter_mut().flat_map(Material::textures);
+        let textures: BTreeSet<usize> = slots.filter_map(|slot| *slot).collect();
         let numbers = keep(&mut model.textures, &textures);
         for material in &mut model.materials {
-            for slot in [&mut material.base_texture, &mut material.opacity_texture] {
+            for slot in material.textures() {
                 *slot = slot.map(|old| numbers[&old]);
             }
         }
     }
 }
 
-/// Glass has no holes: what comes through it is not what its opacity leaves.
+/// Glass has no holes: what comes through it is not what its opacity leaves. Nor has it microfacets.
 pub(crate) fn close(material: &mut Material) {
     if is_glass(material) {
-        (material.opacity, material.opacity_texture) = (1.0, None);
+        (material.opacity, material.opacity_texture, material.microfacet) = (1.0, None, None);
     }
+    roughen(material);
 }
 
 /// A hole, through which everything is sharp; as a lens it is focused on the camera's target, as far as one can be.

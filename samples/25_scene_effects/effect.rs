@@ -15,8 +15,10 @@ common::shader_enum! {
         Textures,
         /// The same, averaged over what a pixel sees of it (19).
         FilteredTextures = "filtered textures",
-        /// Surfaces with holes, `map_d` or `d` below 1 (03).
+        /// Surfaces with holes, `map_d` (03).
         CutOut = "cut-out",
+        /// Surfaces that are partly there, `d` below 1 (03).
+        Blended,
         /// Spheres that a shader intersects (08).
         Spheres,
         /// Boxes that a shader intersects (08).
@@ -37,12 +39,16 @@ common::shader_enum! {
         AreaLight,
         /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
         Mirror,
+        /// Surfaces of microfacets, `Pr` and `Pm` (45).
+        RoughMetal = "rough metal",
         /// Light that surfaces scatter onto others (11).
         Bounces,
         /// Surfaces that let light in, `illum` 4, 6, 7 or 9 (27).
         Glass,
         /// Spheres and meshes that shine on others, `Ke` above 0 (29).
         Emitters,
+        /// Light from a picture of the sky (46).
+        Environment,
         /// Marble, wood or a checker that a surface is cut from (13).
         Patterns,
         /// Lines along the edges of triangles (20).

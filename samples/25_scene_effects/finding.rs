@@ -5,7 +5,9 @@ use common::model::text::quoted;
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
-use crate::{Composition, Effects, Finish, SceneLight, is_glass};
+use crate::{
+    Composition, Effects, Finish, SceneLight, is_blended, is_glass, is_rough, rough_textures,
+};
 
 /// The need for an effect, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,11 +62,14 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Triangles => {
             count(scene.scene.instances.len(), "placed mesh").map(|n| n.replace("meshs", "meshes"))
         }
-        Textures => worn(&|m| m.base_texture.is_some(), "has a texture"),
+        Textures => {
+            worn(&|m| m.base_texture.is_some() || rough_textures(m).is_some(), "has a texture")
+        }
         FilteredTextures if !scene.filtered => None,
         FilteredTextures => worn(&|m| m.base_texture.is_some(), "has a texture, to be filtered"),
-        CutOut => worn(&|m| m.opacity_texture.is_some(), "has an opacity texture")
-            .or_else(|| worn(&|m| m.opacity < 1.0, "is not opaque")),
+        CutOut => worn(&|m| m.opacity_texture.is_some() && !m.blended, "has an opacity texture"),
+        Blended => worn(&|m| m.opacity < 1.0, "is not opaque")
+            .or_else(|| worn(&is_blended, "has a texture that is not opaque")),
         Spheres => count(scene.spheres.len(), "sphere"),
         Boxes => count(scene.boxes.len(), "box").map(|n| n.replace("boxs", "boxes")),
         SweptSpheres => count(scene.strands.segments.len(), "segment"),
@@ -83,16 +88,18 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         // At depth 0 no ray is reflected or refracted.
         Mirror | Glass if scene.depth == 0 => None,
         Mirror => {
-            let is_mirror = |m: &Material| m.is_mirror() && !is_glass(m);
+            let is_mirror = |m: &Material| m.is_mirror() && !is_glass(m) && !is_rough(m);
             worn(&is_mirror, "mirrors").or_else(|| {
                 let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
                 mirrors.then(|| "the plane mirrors".to_owned())
             })
         }
+        RoughMetal => worn(&is_rough, "has a roughness"),
         Bounces => count(scene.bounces as usize, "bounce").map(|n| format!("{n} of light")),
         Glass => worn(&is_glass, "is glass"),
         Emitters if !scene.scatters() => None,
         Emitters => scene.lamp().map(|m| format!("material {} shines", quoted(&m.name))),
+        Environment => scene.environment.as_ref().map(|_| "the sky is a picture".to_owned()),
         Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),
         Wireframe => finished(&|finish| (finish.lines > 0.0).then(|| "has lines".to_owned())),
         AntiAliasing => (scene.samples > 1).then(|| format!("{} rays per pixel", scene.samples)),
@@ -107,7 +114,8 @@ fn why_not(effect: Effect) -> &'static str {
         Triangles => "no mesh is placed",
         Textures => "no material in use has a texture",
         FilteredTextures => "no material in use has a texture, or none is to be filtered",
-        CutOut => "every material in use is opaque",
+        CutOut => "no material in use has holes",
+        Blended => "every material in use is opaque",
         Spheres => "no sphere",
         Boxes => "no box",
         SweptSpheres => "no strand",
@@ -118,9 +126,11 @@ fn why_not(effect: Effect) -> &'static str {
         DirectionalShadows => "no directional light casts shadows",
         AreaLight => "no light that casts shadows has a size",
         Mirror => "nothing in use mirrors, or paths end at once",
+        RoughMetal => "no material in use has a roughness",
         Bounces => "no bounces",
         Glass => "no material in use is glass, or paths end at once",
         Emitters => "no sphere and no mesh shines, or nothing scatters light",
+        Environment => "the sky is not a picture",
         Patterns => "no material in use has a pattern",
         Wireframe => "no material in use has lines",
         AntiAliasing => "one ray per pixel",

@@ -1,6 +1,7 @@
 //! Features of a scene file's material beyond those of an MTL file: a pattern, and lines along edges.
 
 use common::gpu::ShaderEnum;
+use common::scene::Material;
 use glam::Vec3;
 
 common::shader_enum! {
@@ -38,13 +39,31 @@ common::shader_struct! {
         pub lines: f32,
         /// A [`Pattern`].
         pub pattern: u32,
+        /// 1 if the alpha of its texture is how much of the surface there is.
+        pub blended: u32,
     }
+}
+
+/// Tests whether the alpha of a material's texture is how much of the surface there is.
+pub fn is_blended(material: &Material) -> bool {
+    material.blended && material.opacity_texture.is_some()
 }
 
 impl Finish {
     /// Neither a pattern nor lines.
-    pub const NONE: Self =
-        Self { second: Vec3::ZERO, scale: 1.0, ink: Vec3::ZERO, lines: 0.0, pattern: 0 };
+    pub const NONE: Self = Self {
+        second: Vec3::ZERO,
+        scale: 1.0,
+        ink: Vec3::ZERO,
+        lines: 0.0,
+        pattern: 0,
+        blended: 0,
+    };
+
+    /// The finish of a model's material.
+    pub fn of(material: &Material) -> Self {
+        Self { blended: is_blended(material).into(), ..Self::NONE }
+    }
 
     /// The pattern, if there is one.
     pub fn pattern(&self) -> Option<Pattern> {

@@ -4,11 +4,14 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::order::{self, around};
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, padded};
+use common::model::panorama::Panorama;
 use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
-use effects::{Composition, EmitterAddresses, Lamps, Sphere};
+use effects::{Composition, EmitterAddresses, Environment, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
 
+use crate::microfacets::{MicrofacetRecord, RoughOnGpu};
 use crate::recipe::{GeometryKind, Recipe};
+use crate::sky::{SkyOnGpu, SkyTable, Sum};
 use crate::world::Shapes;
 
 /// Everything rays can hit, except the plane.
@@ -24,6 +27,8 @@ pub struct SceneGeometry {
     tops: Vec<(u32, AccelerationStructure)>,
     _levels: Vec<AccelerationStructure>,
     _buffers: Vec<Buffer>,
+    _rough: Option<RoughOnGpu>,
+    _sky: Option<SkyOnGpu>,
 }
 
 /// An instance before it knows its hit record.
@@ -49,6 +54,8 @@ impl SceneGeometry {
             tops: Vec::new(),
             _levels: Vec::new(),
             _buffers: Vec::new(),
+            _rough: None,
+            _sky: None,
         };
         let bounds = from.scene.bounds_of_instances();
         for ((index, instance), bounds) in from.scene.instances.iter().enumerate().zip(bounds) {
@@ -86,6 +93,19 @@ impl SceneGeometry {
         let as_they_come: Vec<u32> = (0..glasses.len() as u32).collect();
         geometry.shapes.glasses = geometry.records(gpu, "glasses", &glasses, &as_they_come)?;
         geometry.shapes.glass_count = glasses.len() as u32;
+        let microfacets = from.microfacets_to_read().into_iter();
+        let records: Vec<_> = microfacets.map(|own| MicrofacetRecord::new(own, -1.0)).collect();
+        if !records.is_empty() {
+            let rough = RoughOnGpu::new(gpu, &records)?;
+            geometry.shapes.rough = rough.rough.address;
+            geometry.shapes.rough_count = records.len() as u32;
+            geometry._rough = Some(rough);
+        }
+        if let Some(environment) = &from.environment {
+            let sky = SkyOnGpu::new(gpu, &table(environment))?;
+            geometry.shapes.sky = sky.sky.address;
+            geometry._sky = Some(sky);
+        }
         let bounds: Vec<_> = from.heightfield.iter().map(crate::ground::bounds).collect();
         geometry.level(gpu, GeometryKind::Ground, &bounds)?;
         Ok(geometry)
@@ -193,6 +213,15 @@ impl Placed {
             },
         }
     }
+}
+
+/// The table that chooses directions of the sky, as bright as the scene has it.
+fn table(environment: &Environment) -> SkyTable {
+    let mut map = Panorama::clone(&environment.map);
+    for part in map.texels.iter_mut().flatten() {
+        *part *= environment.brightness;
+    }
+    SkyTable::new(&map, Sum::Exact)
 }
 
 /// Corners of the box around a sphere and its way, never inside it by rounding.

@@ -9,6 +9,7 @@ mod composition;
 mod effect;
 #[path = "../29_emitters/emitters.rs"]
 mod emitters;
+mod environment;
 mod file;
 mod finding;
 mod finish;
@@ -18,6 +19,7 @@ mod glass_of_27;
 mod lamps;
 #[path = "../28_depth_of_field/lens.rs"]
 mod lens;
+mod rough;
 mod shapes;
 #[path = "../18_swept_spheres/strands.rs"]
 mod strands;
@@ -26,11 +28,13 @@ pub use alias::Column;
 pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, MAX_LIGHTS, SceneLight};
 pub use effect::{Effect, Effects};
 pub use emitters::{Emitter, EmitterAddresses, Emitters};
+pub use environment::{Environment, SKIES};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
-pub use finish::{Finish, Pattern};
+pub use finish::{Finish, Pattern, is_blended};
 pub use glass::{Glass, GlassKind, is_body, is_glass};
 pub use lamps::Lamps;
 pub use lens::{Lens, ThinLens};
+pub use rough::{is_rough, rough_textures};
 pub use shapes::{Box, Face, Solid, Sphere};
 pub use strands::{Node, Segment, Strands};

@@ -3,17 +3,28 @@
 //! New since 12_infinite_plane: effects found from the scene, shaders in pieces, stages and groups that
 //! come and go, and one more pipeline that has everything, to be compared with.
 
+#[path = "../45_rough_metal/albedo.rs"]
+mod albedo;
+#[allow(dead_code, reason = "29 also makes tables of checked weights")]
+#[path = "../29_emitters/alias.rs"]
+mod alias;
 mod clock;
 mod contents;
 mod costs;
 mod geometry;
 mod ground;
+#[allow(dead_code, reason = "45 takes other materials")]
+#[path = "../45_rough_metal/microfacets.rs"]
+mod microfacets;
 mod panel;
 mod recipe;
 mod report;
 mod scenes;
 #[path = "../21_heightfield/shape.rs"]
 mod shape;
+#[allow(dead_code, reason = "46 compares sums, and divides texels")]
+#[path = "../46_environment/sky.rs"]
+mod sky;
 mod why;
 mod world;
 
@@ -27,12 +38,14 @@ use common::output;
 use common::scene::{Camera, CameraBasis, SceneAddresses, SceneOnGpu, SceneOptions, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use costs::Costs;
-use effects::{Composition, Effect, Finding, findings, needed};
+use effects::{Composition, Effect, Environment, Finding, findings, needed};
 use geometry::SceneGeometry;
 use glam::Vec3;
+use microfacets::RoughAddresses;
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
 use serde_json::Value;
+use sky::SkyAddresses;
 use why::Why;
 use world::World;
 
@@ -70,6 +83,10 @@ struct Demo {
     ticks: Option<Buffer>,
     light: u32,
     material: u32,
+    /// The choice among the scene's own sky and [`effects::SKIES`].
+    sky: u32,
+    /// The scene's own.
+    own_sky: Option<Environment>,
     /// The reason why the chosen scene cannot be opened.
     trouble: Option<anyhow::Error>,
     /// The device lets threads change places.
@@ -83,6 +100,8 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         world: Address,
+        rough: Address<RoughAddresses>,
+        sky: Address<SkyAddresses>,
         ticks: Address<u32>,
         hottest: f32,
     }
@@ -106,6 +125,7 @@ impl Sample for Demo {
         output::warn(&scene.scene.model.warnings);
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let camera = scene.scene.camera;
+        let own_sky = scene.environment.clone();
         Ok(Self {
             scene,
             geometry: None,
@@ -125,6 +145,8 @@ impl Sample for Demo {
             ticks: None,
             light: 1,
             material: 0,
+            sky: 0,
+            own_sky,
             trouble: None,
             can_reorder: recipe::can_reorder(gpu),
             options: setup.options,
@@ -152,6 +174,7 @@ impl Sample for Demo {
             c.slider("light size", &mut light.disk.radius, 0.0..=1.0);
             c.checkbox("light shadows", &mut light.shadows);
         }
+        self.choose_sky(c);
         self.polish(c);
         self.tell(c);
         c.camera(&mut self.camera);
@@ -225,7 +248,8 @@ impl Demo {
                 output::warn(&scene.scene.model.warnings);
                 self.camera = scene.scene.camera;
                 (self.scene, self.geometry) = (scene, None);
-                (self.light, self.material) = (1, 0);
+                (self.light, self.material, self.sky) = (1, 0, 0);
+                self.own_sky = self.scene.environment.clone();
                 self.trouble = None;
             }
             Err(error) => self.trouble = Some(error),
@@ -286,6 +310,8 @@ impl Demo {
             camera,
             scene: geometry.scene.addresses,
             world: self.world.address.into(),
+            rough: geometry.shapes.rough.into(),
+            sky: geometry.shapes.sky.into(),
             ticks: self.ticks.as_ref().map_or(0, |ticks| ticks.address).into(),
             hottest: self.hottest,
         };

@@ -2,13 +2,28 @@
 
 use common::Controls;
 use common::Variant;
-use effects::{Finding, is_glass};
+use effects::{Environment, Finding, SKIES, is_glass, is_rough};
 use glam::Vec3;
 
 use crate::Demo;
 use crate::costs::Costs;
 
 impl Demo {
+    /// Replaces the scene's sky by a picture, and turns it.
+    pub fn choose_sky(&mut self, c: &mut Controls) {
+        if c.one_of("sky", &mut self.sky, &["own", SKIES[0], SKIES[1]]) {
+            let chosen = SKIES.get((self.sky as usize).wrapping_sub(1));
+            match chosen.map(|name| Environment::own(name)).transpose() {
+                Ok(sky) => self.scene.environment = sky.or(self.own_sky.clone()),
+                Err(error) => self.trouble = Some(error),
+            }
+            self.repainted = true;
+        }
+        if let Some(sky) = &mut self.scene.environment {
+            c.slider("sky rotation", &mut sky.rotation, -360.0..=360.0);
+        }
+    }
+
     /// Makes a material a mirror or glass, or no longer.
     pub fn polish(&mut self, c: &mut Controls) {
         let names: Vec<String> =
@@ -32,7 +47,8 @@ impl Demo {
             self.repainted = true;
         }
         let mut mirror = material.is_mirror() && !glass;
-        if c.checkbox("mirror", &mut mirror) {
+        // A rough surface is more or less of a mirror already.
+        if !is_rough(material) && c.checkbox("mirror", &mut mirror) {
             material.illumination = if mirror { 3 } else { 2 };
             if mirror && material.specular == Vec3::ZERO {
                 material.specular = Vec3::splat(0.5);

@@ -55,7 +55,7 @@ impl GeometryKind {
 }
 
 /// The effects with which surfaces send rays on, as PATHS in effects.glsl.
-const PATHS: [Effect; 3] = [Mirror, Bounces, Glass];
+const PATHS: [Effect; 4] = [Mirror, RoughMetal, Bounces, Glass];
 
 /// The features a pipeline is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,7 +134,7 @@ impl Recipe {
     fn hit_group(&self, kind: GeometryKind) -> HitGroup<'static> {
         match kind {
             // Geometry without holes is opaque: the device calls no any-hit shader for it.
-            GeometryKind::Mesh if self.effects.has(CutOut) => {
+            GeometryKind::Mesh if self.effects.has_any(&[CutOut, Blended]) => {
                 HitGroup::triangles().closest_hit("mesh.rchit").any_hit("cut_out.rahit")
             }
             GeometryKind::Mesh => HitGroup::triangles().closest_hit("mesh.rchit"),
@@ -183,13 +183,13 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
         .skip(recipe.skipped(gpu))
         .raygen("camera.rgen")
         .miss("sky.rmiss");
-    if recipe.effects.has_any(&[PointShadows, DirectionalShadows, Emitters]) {
+    if recipe.effects.has_any(&[PointShadows, DirectionalShadows, Emitters, Environment]) {
         builder = builder.miss("common/shadow.rmiss");
     }
     for kind in recipe.kinds() {
         builder = builder.hit(recipe.hit_group(kind));
     }
-    if recipe.effects.has_any(&[Textures, CutOut]) {
+    if recipe.effects.has_any(&[Textures, CutOut, Blended]) {
         builder = builder.textures(textures);
     }
     if can_reorder(gpu) && recipe.divergence().is_ok() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 21] = [
+pub const SCENES: [&str; 22] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -25,14 +25,15 @@ pub const SCENES: [&str; 21] = [
     "close up",
     "globes",
     "billiards",
+    "rough gold",
     "everything",
     "file",
 ];
 
 /// Number of the scene at the start of the chapter.
-pub const EVERYTHING: u32 = 19;
+pub const EVERYTHING: u32 = 20;
 /// Number of the scene that `--scene` opens.
-pub const FILE: u32 = 20;
+pub const FILE: u32 = 21;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

@@ -11,8 +11,11 @@ use effects::{
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use crate::albedo::Albedo;
 use crate::ground::Ground;
+use crate::microfacets::{MicrofacetRecord, RoughAddresses};
 use crate::shape::HeightfieldShape;
+use crate::sky::{SkyAddresses, SkyRow, Texel};
 
 /// Addresses of the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,6 +38,12 @@ pub struct Shapes {
     pub glasses: vk::DeviceAddress,
     /// Number of those.
     pub glass_count: u32,
+    /// The address of a [`RoughAddresses`].
+    pub rough: vk::DeviceAddress,
+    /// The address of a [`SkyAddresses`].
+    pub sky: vk::DeviceAddress,
+    /// Number of materials, if one in use has microfacets.
+    pub rough_count: u32,
     /// Addresses of the emitters, if there are any.
     pub emitters: Option<EmitterAddresses>,
 }
@@ -78,6 +87,8 @@ common::shader_struct! {
         pub media: [u32; 4],
         pub lights: [DiskLight; MAX_LIGHTS],
         pub sky: f32,
+        pub rotation: f32,
+        pub sky_on: u32,
         pub light_count: u32,
         pub shadows: u32,
         pub light_samples: u32,
@@ -88,13 +99,14 @@ common::shader_struct! {
         pub plane_on: u32,
         pub finish_count: u32,
         pub glass_count: u32,
+        pub rough_count: u32,
         pub moving: u32,
         pub filtered: u32,
     }
 }
 
 /// Layouts of the structures behind the world's address.
-pub const LAYOUTS: [StructLayout; 19] = [
+pub const LAYOUTS: [StructLayout; 25] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -114,6 +126,12 @@ pub const LAYOUTS: [StructLayout; 19] = [
     EmitterAddresses::LAYOUT,
     Emitter::LAYOUT,
     Column::LAYOUT,
+    RoughAddresses::LAYOUT,
+    MicrofacetRecord::LAYOUT,
+    Albedo::LAYOUT,
+    SkyAddresses::LAYOUT,
+    SkyRow::LAYOUT,
+    Texel::LAYOUT,
 ];
 
 impl World {
@@ -134,6 +152,7 @@ impl World {
         let dark =
             Light { place: Vec3::Y, kind: LightKind::Directional.into(), strength: Vec3::ZERO };
         let mut lights = [DiskLight { light: dark, radius: 0.0, samples: 1 }; MAX_LIGHTS];
+        let rotation = scene.environment.as_ref().map_or(0.0, |sky| sky.rotation);
         let mut shadows = 0;
         for (number, light) in scene.lights.iter().enumerate() {
             lights[number] = light.disk;
@@ -155,7 +174,10 @@ impl World {
             lens: scene.lens.shader(),
             media: scene.media_at(eye),
             lights,
-            sky: scene.sky,
+            // The picture's light is sampled: nothing stands for it.
+            sky: if scene.environment.is_some() { 0.0 } else { scene.sky },
+            rotation: (rotation / 360.0).rem_euclid(1.0),
+            sky_on: scene.environment.is_some().into(),
             light_count: scene.lights.len() as u32,
             shadows,
             light_samples: scene.light_samples,
@@ -166,6 +188,7 @@ impl World {
             plane_on: scene.plane.is_some().into(),
             finish_count: scene.finishes_to_read().len() as u32,
             glass_count: shapes.glass_count,
+            rough_count: shapes.rough_count,
             moving: scene.moving() as u32,
             filtered: scene.filtered.into(),
         }

@@ -4,6 +4,7 @@
 //! and the light that facets pass on to each other, from a table of what they reflect in all.
 
 mod albedo;
+mod microfacets;
 mod rough_scene;
 mod scenes;
 
@@ -18,7 +19,8 @@ use common::gpu::{
 use common::scene::{Camera, CameraBasis, Light, Look, Scene, SceneAddresses, Sun, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;
-use rough_scene::{RoughAddresses, RoughScene};
+use microfacets::RoughAddresses;
+use rough_scene::RoughScene;
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
@@ -177,7 +179,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.rough.on_gpu.addresses,
-            rough: self.rough.rough.address.into(),
+            rough: self.rough.microfacets.rough.address.into(),
             sums: self.sums.address.into(),
             light: Light::directional(&self.sun),
             light_size: self.light_size,

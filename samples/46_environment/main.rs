@@ -8,6 +8,8 @@ mod albedo;
 #[allow(dead_code, reason = "29 also makes tables of checked weights")]
 #[path = "../29_emitters/alias.rs"]
 mod alias;
+#[path = "../45_rough_metal/microfacets.rs"]
+mod microfacets;
 #[path = "../45_rough_metal/rough_scene.rs"]
 mod rough_scene;
 #[path = "../45_rough_metal/scenes.rs"]
@@ -26,7 +28,8 @@ use common::gpu::{
 use common::scene::{Camera, CameraBasis, Look, Scene, SceneAddresses, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;
-use rough_scene::{RoughAddresses, RoughScene};
+use microfacets::RoughAddresses;
+use rough_scene::RoughScene;
 use rough_scenes::SceneName;
 use scenes::{Skies, SkyName};
 use sky::{SkyAddresses, SkyOnGpu, SkyTable, Sum, divided};
@@ -197,7 +200,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.rough.on_gpu.addresses,
-            rough: self.rough.rough.address.into(),
+            rough: self.rough.microfacets.rough.address.into(),
             sky: self.sky.sky.address.into(),
             sums: self.sums.address.into(),
             rotation: (self.rotation / 360.0).rem_euclid(1.0),

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
+use common::UsageError;
 use common::gpu::{Address, Buffer, Gpu};
 use common::model::panorama::Panorama;
 use common::scene::input_usage;
@@ -34,7 +35,7 @@ common::shader_struct! {
 
 common::shader_struct! {
     /// The edges of a row.
-    pub struct Row {
+    pub struct SkyRow {
         /// The cosine of the angle from straight up, at the upper edge.
         pub top: f32,
         /// By how much it is smaller at the lower edge.
@@ -50,7 +51,7 @@ common::shader_struct! {
         /// The table that chooses a texel.
         pub columns: Address<Column>,
         /// The rows.
-        pub rows: Address<Row>,
+        pub rows: Address<SkyRow>,
         /// Width and height of the picture.
         pub size: UVec2,
         /// Number of columns.
@@ -66,7 +67,7 @@ pub struct SkyTable {
     /// The texels.
     pub texels: Vec<Texel>,
     /// The rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SkyRow>,
     /// The table that chooses a texel.
     pub columns: Vec<Column>,
     /// Width and height.
@@ -100,7 +101,7 @@ impl SkyTable {
         let texels = map.texels.iter().enumerate().map(texel).collect();
         let row = |row| {
             let [top, bottom] = edges(map.height, row);
-            Row { top: top.cos() as f32, height: height(top, bottom) as f32 }
+            SkyRow { top: top.cos() as f32, height: height(top, bottom) as f32 }
         };
         let rows = (0..map.height).map(row).collect();
         Self { texels, rows, columns: table.columns, size: UVec2::new(map.width, map.height) }
@@ -143,10 +144,12 @@ pub fn solid_angle(map: &Panorama, row: u32) -> f64 {
 pub fn divided(map: &Panorama, cut: u32) -> Result<Panorama> {
     let (width, height) = (map.width * cut, map.height * cut);
     let count = width as usize * height as usize;
-    ensure!(
-        count <= TEXELS,
-        "cut={cut} makes {count} texels of the sky; at most {TEXELS} can be chosen from"
-    );
+    if count > TEXELS {
+        let line = format!(
+            "cut={cut} makes {count} texels of the sky; at most {TEXELS} can be chosen from"
+        );
+        return Err(UsageError(line).into());
+    }
     let texel = |i: usize| {
         let (x, y) = (i % width as usize / cut as usize, i / width as usize / cut as usize);
         map.texels[y * map.width as usize + x]

@@ -2,7 +2,7 @@
 // shader decides what follows. It has the fields of the effects in use, and no more.
 
 struct Hit {
-    vec3 position;    // on the surface, in the world
+    vec3 position;    // on the surface, in the world; of a miss, in x, how likely a shadow ray goes there
     float t;          // the distance along the ray; -1 for a miss
     vec3 normal;      // the normal to shade with: unit, on the side that the ray came from
     uint material;    // push.scene.materials.at[material], or MATERIAL_PLANE or MATERIAL_GROUND
@@ -14,6 +14,9 @@ struct Hit {
 #endif
 #ifdef TERMINATOR
     vec3 terminator_offset;  // from the flat triangle to the round surface that its normals pretend
+#endif
+#ifdef ROUGH_TEXTURES
+    uint rough;       // what textures multiply roughness and metalness by, packed; of a material with such textures
 #endif
 #ifdef EFFECT_GLASS
     bool entering;    // the ray came from outside the body
@@ -27,7 +30,7 @@ struct Hit {
 #ifdef TOLD_CONES
     vec2 cone;        // in: the ray's width and spread. Out, in x: the part that lines cover
 #endif
-};                    // 44 to 92 bytes
+};                    // 44 to 96 bytes
 
 // The ground and the plane are made of nothing that is in the list of materials.
 const uint MATERIAL_GROUND = -2;

@@ -62,6 +62,23 @@ Row row_on(InstanceRecord instance, uint triangle, vec3 face, int index) {
 }
 #endif
 
+#ifdef ROUGH_TEXTURES
+// Green is roughness and blue is metalness, as in glTF; textures without a curve for the eye.
+uint rough_texels(uint material, vec2 uv) {
+    vec2 texels = vec2(1.0);
+    if (material < push.world.rough_count) {
+        MicrofacetRecord record = push.rough.microfacets.at[material];
+        if (record.roughness_texture >= 0) {
+            texels.x = textureLod(textures[nonuniformEXT(record.roughness_texture)], uv, 0.0).g;
+        }
+        if (record.metallic_texture >= 0) {
+            texels.y = textureLod(textures[nonuniformEXT(record.metallic_texture)], uv, 0.0).b;
+        }
+    }
+    return packUnorm2x16(texels);
+}
+#endif
+
 #ifdef FINISHES
 // The triangle's corners in the mesh's own space.
 vec3[3] corners_of(InstanceRecord instance, uint triangle) {
@@ -107,6 +124,9 @@ void main() {
 #endif
 #ifdef TERMINATOR
     hit.terminator_offset = terminator_offset(at.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
+#endif
+#ifdef ROUGH_TEXTURES
+    hit.rough = rough_texels(instance.material, surface.uv);
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.

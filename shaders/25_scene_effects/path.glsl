@@ -4,7 +4,7 @@
 #ifdef EFFECT_MIRROR
 #include "common/mirror.glsl"
 #endif
-#if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS) || defined(EFFECT_EMITTERS)
+#if defined(RANDOM_DIRECTIONS) || defined(EFFECT_GLASS) || defined(SAMPLED_LIGHT)
 #define NUMBERS
 #include "common/path_numbers.glsl"
 #include "common/surface.glsl"
@@ -25,7 +25,7 @@ struct Path {
 #ifdef EFFECT_GLASS
     uvec4 media;         // the bodies of glass that the next ray is in
 #endif
-#ifdef CHANCES
+#ifdef FOUND_TWICE
     float density;       // of the next ray's direction; NO_OTHER if no shadow ray could have gone there
 #endif
 };
@@ -57,8 +57,15 @@ vec2 numbers(Path path, uint dimension) {
 #ifdef EFFECT_GLASS
 #include "glass.glsl"
 #endif
+#ifdef EFFECT_ROUGH_METAL
+#include "rough.glsl"
+#endif
+#include "scatterer.glsl"
 #ifdef EFFECT_EMITTERS
 #include "emitters.glsl"
+#endif
+#ifdef EFFECT_ENVIRONMENT
+#include "environment.glsl"
 #endif
 
 // The material of a hit, without its colour; and its reflectance seen straight on.
@@ -101,6 +108,7 @@ bool scatters(inout Path path, vec3 color, vec3 mirror, out float matte) {
 const uint WAY_MIRROR = 0;
 const uint WAY_BOUNCE = 1;
 const uint WAY_GLASS = 2;
+const uint WAY_ROUGH = 3;
 
 // Lights a hit, adds its light to the path, and sets up the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
@@ -108,7 +116,11 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     ray.width += ray.spread * hit.t;
 #endif
     uint way = WAY_MIRROR;
-    float matte = 0.0;   // with what probability the next ray is scattered
+    Scatterer by;
+    by.matte = 0.0;
+#ifdef EFFECT_ROUGH_METAL
+    by.surface.roughness = -1.0;
+#endif
 #ifdef EFFECT_GLASS
     path.throughput *= left_on_way(path.media, hit.t);
     if (is_glass(hit)) {
@@ -120,12 +132,25 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // is sampled, so that fewer values stay alive.
     vec3 reaching = path.throughput;
     if (hit.t < 0.0) {
+#if defined(EFFECT_ENVIRONMENT) && defined(FOUND_TWICE)
+        hit.color *= part_of_sky(path, hit);
+#endif
         path.color += reaching * hit.color;
         path.throughput = vec3(0.0);
     } else {
         vec3 mirror = vec3(0.0);
         vec3 reflection;
         MaterialRecord material = material_of(hit, reflection);
+#ifdef EFFECT_ROUGH_METAL
+        MicrofacetRecord facets = microfacet_of(hit);
+        if (facets.roughness >= 0.0) {
+            way = WAY_ROUGH;
+            // A row vector times a matrix is the transposed product: from the world into the frame.
+            vec3 view = -ray.direction * frame_of(hit.normal);
+            by.surface = microfacets(push.rough, hit.color, facets.roughness, facets.metallic, view);
+            hit.color = with_ways_left(path, by.surface, by.continues);
+        }
+#endif
 #ifdef EFFECT_MIRROR
         if (reflection != vec3(0.0) && push.world.depth != 0) {
             mirror = fresnel(reflection, max(dot(hit.normal, -ray.direction), 0.0));
@@ -137,10 +162,10 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
 #ifdef EFFECT_BOUNCES
         // A highlight that is met by chance would be a bright dot.
         material.specular *= path.bounces > 0 ? 0.0 : 1.0;
-        if (path.bounces < push.world.bounces && hit.color != vec3(0.0)) {
+        if (way != WAY_ROUGH && path.bounces < push.world.bounces && hit.color != vec3(0.0)) {
             // The next ray finds out what comes from around; after the last one that is taken to be the sky's.
             around = vec3(0.0);
-            way = scatters(path, hit.color, mirror, matte) ? WAY_BOUNCE : WAY_MIRROR;
+            way = scatters(path, hit.color, mirror, by.matte) ? WAY_BOUNCE : WAY_MIRROR;
         } else
 #endif
         if (way == WAY_MIRROR) {
@@ -152,10 +177,17 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         }
 #endif
         path.color += reaching * (material.emission + hit.color * around);
+#ifdef EFFECT_ROUGH_METAL
+        // Its colour is that of the microfacets.
+        hit.color = way == WAY_ROUGH ? vec3(1.0) : hit.color;
+#endif
         hit.color *= reaching;
         material.specular *= reaching;
 #ifdef EFFECT_EMITTERS
-        path.color += asked(path, hit, matte);
+        path.color += asked(path, hit, by);
+#endif
+#ifdef EFFECT_ENVIRONMENT
+        path.color += from_sky(path, hit, by);
 #endif
 #ifdef SHADOWS
         RayOrigin start = shadow_start(hit);
@@ -172,12 +204,18 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
                 visible = visibility(disk, start, hit, first);
             }
 #endif
+#ifdef EFFECT_ROUGH_METAL
+            if (way == WAY_ROUGH) {
+                path.color += lit_by(disk.light, hit, by.surface, visible);
+                continue;
+            }
+#endif
             path.color += lit_by(disk.light, hit, material, -ray.direction, visible);
         }
     }
 #ifdef PATHS
     float side = 1.0;
-#ifdef CHANCES
+#ifdef FOUND_TWICE
     path.density = NO_OTHER;
 #endif
 #ifdef EFFECT_GLASS
@@ -185,12 +223,31 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         side = pass(path, ray, hit) ? -1.0 : 1.0;
     } else
 #endif
+#ifdef EFFECT_ROUGH_METAL
+    if (way == WAY_ROUGH) {
+        float choice = numbers(path, DIMENSION_CHOICE).x;
+        Bounce next = bounce(by.surface, choice, numbers(path, DIMENSION_BOUNCE));
+        path.throughput *= by.continues * next.weight;
+#ifdef FOUND_TWICE
+        path.density = density_of(by.surface, choice, next);
+#endif
+        ray.direction = next.is_mirrored ? mirrored(ray.direction, hit.normal, hit.face)
+            : kept_above(frame_of(hit.normal) * next.direction, hit.face);
+        bool by_facet = choice < by.surface.polished;
+#ifdef CURVES
+        ray.spread += by_facet ? 2.0 * hit.curvature * ray.width : 0.0;
+#endif
+#ifdef EFFECT_BOUNCES
+        path.bounces += by_facet ? 0 : 1;
+#endif
+    } else
+#endif
 #ifdef EFFECT_BOUNCES
     if (way == WAY_BOUNCE) {
         vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
         ray.direction = kept_above(on, hit.face);
-#ifdef CHANCES
-        // The throughput was divided by `matte`: so that has not to be kept while lights are asked for.
+#ifdef FOUND_TWICE
+        // The throughput was divided by `by.matte`: so that has not to be kept while lights are asked for.
         float again = largest(hit.color) / max(largest(path.throughput), 1e-30);
         path.density = again * likelihood(ray.direction, hit.normal, hit.face);
 #endif

@@ -12,6 +12,8 @@
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
+#include "common/rough.glsl"
+#include "common/sky.glsl"
 #include "common/ray_time.glsl"
 #include "lens.glsl"
 
@@ -79,6 +81,7 @@ struct Finish {
     vec3 ink;        // the colour of lines
     float lines;     // how wide they are, in pixels; 0 for none
     uint pattern;
+    uint blended;    // the alpha of its texture is how much of it is there, not where it has holes
 };
 
 struct Ground {
@@ -119,7 +122,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Lens lens;
     uint media[4];        // the bodies of glass that the camera is in
     DiskLight lights[MAX_LIGHTS];
-    float sky;            // how bright it is, 0 to 1
+    float sky;            // how bright it is, 0 to 1; 0 if it is a picture
+    float rotation;       // of the picture around the vertical, in turns
+    uint sky_on;          // whether there is a picture of the sky
     uint light_count;
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size
@@ -130,6 +135,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint plane_on;
     uint finish_count;    // of materials, if one in use has a finish; else 0
     uint glass_count;     // of materials, if one in use is glass; else 0
+    uint rough_count;     // of materials, if one in use has microfacets; else 0
     uint moving;          // whether anything moves while the shutter is open
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
@@ -141,6 +147,8 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     World world;
+    RoughAddresses rough;
+    SkyAddresses sky;
     Ticks ticks;
     float hottest;        // the ticks that are shown in white
 } push;
@@ -152,12 +160,16 @@ layout(constant_id = 1) const uint LIGHTS = 4;
 layout(constant_id = 2) const uint RAY_MASK = 0xff;
 layout(constant_id = 3) const uint PATTERNS = 14;
 
-// The flags of every ray: without cut-outs, the device need not look for an any-hit shader.
-#ifdef EFFECT_CUT_OUT
+// The flags of every ray: if nothing is seen through, the device need not look for an any-hit shader.
+#ifdef SEEN_THROUGH
 const uint RAY_FLAGS = gl_RayFlagsNoneEXT;
 #else
 const uint RAY_FLAGS = gl_RayFlagsOpaqueEXT;
 #endif
+
+// The picture chooses the directions of shadow rays.
+const uint SAMPLER = 2;
+const uint SAMPLER_UNIFORM = 1;
 
 // As far as rays go.
 const float FAR = 1e30;

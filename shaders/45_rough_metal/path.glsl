@@ -96,7 +96,8 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
     if (rough.roughness >= 0.0) {
         mat3 frame = frame_of(hit.normal);
         // A row vector times a matrix is the transposed product: from the world into the frame.
-        Microfacets surface = microfacets(hit.color, rough.roughness, rough.metallic, -ray.direction * frame);
+        Microfacets surface = microfacets(push.rough, hit.color, rough.roughness, rough.metallic,
+            -ray.direction * frame);
         vec3 light = normalize(to_light) * frame;
         gather(path, material.emission + arriving * reflected_from(surface, light));
         Bounce next = bounce(surface, choice, u);

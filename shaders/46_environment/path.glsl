@@ -78,6 +78,15 @@ vec3 other_side(vec3 direction, vec3 face) {
     return direction - 2.0 * dot(direction, face) * face;
 }
 
+// Whether shadow rays share the light with bounces: 1 if so.
+const float BOUNCES = SAMPLER == SAMPLER_BOTH ? 1.0 : 0.0;
+
+// As `balanced`, for a surface that scatters evenly with the probability `matte`, without its colour.
+float balanced_matte(float cosine, float matte, float density) {
+    float chance = max(cosine, 0.0) / PI;
+    return chance / (density + (SAMPLER == SAMPLER_BOTH ? matte * chance : 0.0));
+}
+
 // A surface without microfacets: it scatters as in 11, and has no highlight, because nothing shines but the sky.
 void scatter(inout Path path, inout Ray ray, Hit hit, MaterialRecord material, SkySample found,
         float choice, vec2 u) {
@@ -136,11 +145,12 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
     if (rough.roughness >= 0.0) {
         mat3 frame = frame_of(hit.normal);
         // A row vector times a matrix is the transposed product: from the world into the frame.
-        Microfacets surface = microfacets(hit.color, rough.roughness, rough.metallic, -ray.direction * frame);
+        Microfacets surface = microfacets(push.rough, hit.color, rough.roughness, rough.metallic,
+            -ray.direction * frame);
         if (largest(found.radiance) > 0.0) {
             // A bounce arrives at a direction by itself, or mirrored at the triangle: `kept_above`.
-            gather(path, found.radiance * (balanced(surface, found.direction * frame, found.density)
-                + balanced(surface, other_side(found.direction, hit.face) * frame, found.density)));
+            gather(path, found.radiance * (balanced(surface, found.direction * frame, found.density, BOUNCES)
+                + balanced(surface, other_side(found.direction, hit.face) * frame, found.density, BOUNCES)));
         }
         Bounce next = bounce(surface, choice, u);
         path.throughput *= next.weight;

@@ -3,7 +3,7 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "rough_hit.glsl"
-#include "sky_map.glsl"
+#include "common/sky_map.glsl"
 
 layout(location = 0) rayPayloadInEXT RoughHit rough;
 

@@ -1,6 +1,7 @@
 // Taught by 29_emitters.
 //
 // Emitters: spheres, and triangles of meshes; and the table by which one of them is chosen.
+#include "alias.glsl"
 
 struct Emitter {
     vec3 corner;          // a triangle's first; a sphere's centre
@@ -20,13 +21,5 @@ struct Aim {
     vec3 to;           // as far as the ray goes: to just above that point
 };
 
-// A column of the table: what part of it is its own emitter's, and whose the rest is.
-struct Column {
-    float own;
-    uint other;
-};
-
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Emitters { Emitter at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Columns { Column at[]; };
-
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Numbers { uint at[]; };

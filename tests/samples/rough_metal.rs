@@ -106,7 +106,7 @@ fn three_ways_to_choose_facets_have_one_mean() {
         assert!(mean.abs() < confidence, "{name} - visible: {mean} ± {confidence}");
     }
     let shaders = shaders_with(
-        "45_rough_metal/microfacet.glsl",
+        "common/microfacet.glsl",
         "surface.roughness = roughness;",
         "roughness += 0.02; surface.alpha = roughness * roughness; surface.roughness = roughness;",
     );

@@ -31,7 +31,7 @@ pub fn possible(mut set: Effects) -> Effects {
         set = set.without(Emitters);
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) {
-        set = set.without(Patterns).without(Glass);
+        set = set.without(Patterns).without(Glass).without(RoughMetal);
     }
     set
 }
@@ -39,7 +39,7 @@ pub fn possible(mut set: Effects) -> Effects {
 /// The effects required by an effect: holes, textures and lines are on triangles.
 fn needed_by(effect: Effect) -> &'static [Effect] {
     match effect {
-        Textures | CutOut | Wireframe => &[Triangles],
+        Textures | CutOut | Blended | Wireframe => &[Triangles],
         FilteredTextures => &[Triangles, Textures],
         MotionBlur => &[Spheres],
         _ => &[],
@@ -84,7 +84,16 @@ pub fn all_pairs() -> Vec<Effects> {
 /// Returns whether something is visible, and no ray leaves it: only a pipeline without such rays computes no
 /// start.
 fn leaves_nothing(set: &Effects) -> bool {
-    let leaving = [PointShadows, DirectionalShadows, Mirror, Bounces, Glass, Emitters];
+    let leaving = [
+        PointShadows,
+        DirectionalShadows,
+        Mirror,
+        RoughMetal,
+        Bounces,
+        Glass,
+        Emitters,
+        Environment,
+    ];
     set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)
 }
 
@@ -107,6 +116,8 @@ pub fn write(folder: &Path, name: &str, set: Effects, random: &mut Random) -> Pa
         _ => image::Rgba([40, 120, 180, 0]),
     };
     image::RgbaImage::from_fn(16, 16, checks).save(folder.join("checks.png")).unwrap();
+    let gauze = |x: u32, y: u32| image::Rgba([255, 255, 255, (8 * (x + y)) as u8]);
+    image::RgbaImage::from_fn(16, 16, gauze).save(folder.join("gauze.png")).unwrap();
     let path = folder.join(name).with_extension("toml");
     fs::write(&path, text(set, random)).unwrap();
     path
@@ -133,6 +144,12 @@ f 1/1 2/2 3/3 4/4
 o lattice
 usemtl pierced
 f 1/1 2/2 3/3 4/4
+o veil
+usemtl veil
+f 1/1 2/2 3/3 4/4
+o mat
+usemtl scuffed
+f 1/1 2/2 3/3 4/4
 ";
 
 const MATERIALS: &str = "newmtl plain
@@ -144,6 +161,22 @@ Kd 1 1 1
 Ks 0 0 0
 illum 2
 map_Kd checks.png
+newmtl scuffed
+Kd 0.6 0.4 0.3
+Pr 0.7
+Pm 0.9
+map_Pr checks.png
+map_Pm checks.png
+newmtl veil
+Kd 0.7 0.3 0.5
+Ks 0 0 0
+illum 2
+d 0.6
+newmtl gauze
+Kd 0.3 0.4 0.6
+Ks 0 0 0
+illum 2
+map_d gauze.png
 newmtl pierced
 Kd 0.3 0.5 0.3
 Ks 0 0 0
@@ -165,6 +198,13 @@ fn text(set: Effects, random: &mut Random) -> String {
     text += &format!("[camera]\neye = [{x}, {y}, 7]\ntarget = [0, 0.6, 0]\nfield_of_view = 48\n");
     if has(DepthOfField) {
         text += &format!("lens = {{ diameter = {}, blades = 6 }}\n", n(0.05, 0.3));
+    }
+    if has(Environment) {
+        text += &format!(
+            "[sky]\nname = \"evening\"\nrotation = {}\nbrightness = {}\n",
+            n(-90.0, 90.0),
+            n(0.5, 1.5)
+        );
     }
     // Both kinds of light are everywhere; only the effect decides which casts shadows.
     let size = if has(AreaLight) { 0.2 } else { 0.0 };
@@ -203,12 +243,24 @@ fn text(set: Effects, random: &mut Random) -> String {
             text += &format!("lines = {}\nink = [0.1, 0, 0.2]\n", n(0.5, 3.0));
         }
     }
+    if has(Blended) {
+        text += "[[material]]\nname = \"gauze\"\nblended = true\n";
+    }
     if has(Glass) {
         text += &format!(
             "[[material]]\nname = \"crystal\"\nglass = \"thick\"\nindex = {}\n\
              through = [{}, 0.9, 0.8]\nspecular = [0.04, 0.04, 0.04]\nshininess = 90\n",
             n(1.2, 1.9),
             n(0.2, 1.0)
+        );
+    }
+    if has(RoughMetal) {
+        text += &format!(
+            "[[material]]\nname = \"brushed\"\ncolor = [{}, 0.7, 0.4]\nroughness = {}\n\
+             metallic = {}\n",
+            n(0.5, 1.0),
+            n(0.0, 1.0),
+            n(0.0, 1.0)
         );
     }
     if has(Emitters) {
@@ -224,8 +276,12 @@ fn text(set: Effects, random: &mut Random) -> String {
             ("tent", "sheet", true),
             ("tent", "crystal", has(Glass)),
             ("tent", "lamp", has(Emitters)),
+            ("tent", "brushed", has(RoughMetal)),
+            ("mat", "", has(RoughMetal) && has(Textures)),
             ("picture", "", has(Textures)),
             ("lattice", "", has(CutOut)),
+            ("lattice", "gauze", has(Blended)),
+            ("veil", "", has(Blended)),
         ];
         for (mesh, material, placed) in pieces {
             if placed {
@@ -243,9 +299,10 @@ fn text(set: Effects, random: &mut Random) -> String {
     } else {
         text = text.replace("model = \"model.obj\"\n", "");
     }
-    let materials = ["metal", "paint", "crystal"];
-    let worn = if has(Glass) { &materials[..] } else { &materials[..2] };
-    for (number, &material) in worn.iter().enumerate() {
+    let worn =
+        [("metal", true), ("paint", true), ("crystal", has(Glass)), ("brushed", has(RoughMetal))];
+    let worn = worn.iter().filter(|(_, is_worn)| *is_worn);
+    for (number, &(material, _)) in worn.enumerate() {
         let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
         let radius = n(0.3, 0.7);
         if has(Spheres) {

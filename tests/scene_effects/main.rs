@@ -1,11 +1,14 @@
 //! 25_scene_effects: the effects a scene triggers; nothing else is compiled, and no picture changes.
 
+mod alpha;
 mod compiled;
 mod departures;
 mod generated;
 mod light;
 mod lines;
 mod plots;
+mod rough;
+mod sky;
 mod time;
 mod why;
 
@@ -25,7 +28,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects of each, and the stages, listed by hand. Every pipeline has
 /// `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 20] = [
+const SCENES: [(&str, &[Effect], &[&str]); 21] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -109,6 +112,11 @@ const SCENES: [(&str, &[Effect], &[&str]); 20] = [
         &[Spheres, Plane, DirectionalShadows, AntiAliasing, MotionBlur],
         &["common/shadow.rmiss", "sphere.rint", "shape.rchit"],
     ),
+    (
+        "rough gold",
+        &[Triangles, RoughMetal, Bounces, Environment, AntiAliasing],
+        &["common/shadow.rmiss", "mesh.rchit"],
+    ),
     ("everything", Effect::ALL, &EVERY_STAGE),
 ];
 
@@ -168,7 +176,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     let expected: BTreeSet<String> = expected.iter().map(below_shaders).collect();
     assert_eq!(paths, expected.iter().map(String::as_str).collect(), "{name}");
     let lifts = effects.has_any(&[PointShadows, DirectionalShadows]);
-    let shadows = lifts || effects.has(Emitters);
+    let shadows = lifts || effects.has_any(&[Emitters, Environment]);
     for stage in stages {
         let (path, module) = (stage["path"].as_str().unwrap(), &stage["module"]);
         let place = format!("{name}: {path}");
@@ -194,16 +202,17 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
     // Position, distance, normal, material and colour; the start of new rays, height and face; the offset to
-    // the round surface; the body it came into; the emitter; its curvature; and the ray's cone. A shadow ray
+    // the round surface; roughness and metalness from textures; the body it came into; the emitter; its curvature; and the ray's cone. A shadow ray
     // has its own payload, a bool.
     let cones = effects.has_any(&[Plane, Heightfield, Wireframe, FilteredTextures]);
-    let leaves = shadows || effects.has_any(&[Mirror, Bounces, Glass]);
+    let leaves = shadows || effects.has_any(&[Mirror, RoughMetal, Bounces, Glass]);
     let payload = 11
         + 4 * usize::from(leaves)
         + 3 * usize::from(lifts && effects.has(Triangles))
+        + usize::from(effects.has(RoughMetal) && effects.has(Textures))
         + usize::from(effects.has(Glass))
-        + usize::from(effects.has(Emitters) && effects.has(Bounces))
-        + usize::from(cones && effects.has_any(&[Mirror, Glass]))
+        + usize::from(effects.has(Emitters) && effects.has_any(&[RoughMetal, Bounces]))
+        + usize::from(cones && effects.has_any(&[Mirror, RoughMetal, Glass]))
         + 2 * usize::from(effects.has_any(&[Wireframe, FilteredTextures]));
     for stage in stages {
         let path = stage["path"].as_str().unwrap();
@@ -214,7 +223,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         };
         assert_eq!(stage["module"]["payload"], 4 * floats, "{name}: {path}");
     }
-    assert!(4 * payload <= 92, "{name}");
+    assert!(4 * payload <= 96, "{name}");
 }
 
 fn set_of(effects: &[Effect]) -> Effects {
@@ -308,7 +317,7 @@ fn a_model_alone_is_a_scene() {
 
 #[test]
 fn an_edit_that_changes_the_set_changes_the_pipeline() {
-    let cases: [(&str, &[&str], Effect, bool); 9] = [
+    let cases: [(&str, &[&str], Effect, bool); 10] = [
         ("opening", &["light size=0.2"], AreaLight, true),
         ("opening", &["light shadows=off"], DirectionalShadows, false),
         ("opening", &["material=black", "mirror=on"], Mirror, true),
@@ -317,6 +326,7 @@ fn an_edit_that_changes_the_set_changes_the_pipeline() {
         ("two kings", &["bounces=2"], Bounces, true),
         ("two kings", &["material=black", "glass=on"], Glass, true),
         ("crystal", &["depth=0"], Glass, false),
+        ("two kings", &["sky=evening", "sky rotation=30"], Environment, true),
         ("two kings", &["lens diameter=0.5", "focus=3"], DepthOfField, true),
     ];
     for (scene, edits, effect, there) in cases {
@@ -402,7 +412,7 @@ fn format_page() -> String {
 fn the_page_of_the_format_lists_every_key() {
     let page = format_page();
     // The keys that the file reader accepts, table by table.
-    let tables = ["[camera]", "[picture]", "[plane]", "[heightfield]"];
+    let tables = ["[camera]", "[picture]", "[sky]", "[plane]", "[heightfield]"];
     let lists = [
         "[[light]]",
         "[[material]]",

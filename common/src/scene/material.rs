@@ -27,6 +27,8 @@ pub struct Material {
     pub base_texture: Option<usize>,
     /// The texture whose alpha multiplies `opacity`, by position in the model (`map_d`).
     pub opacity_texture: Option<usize>,
+    /// True if that alpha is how much of the surface there is; else it says where the surface has holes.
+    pub blended: bool,
     /// Its metalness and roughness, if the file has them (`Pm`, `Pr`).
     pub microfacet: Option<Microfacet>,
 }
@@ -61,7 +63,7 @@ impl Default for Microfacet {
 
 impl Material {
     /// The textures that are named.
-    pub(crate) fn textures(&mut self) -> impl Iterator<Item = &mut Option<usize>> {
+    pub fn textures(&mut self) -> impl Iterator<Item = &mut Option<usize>> {
         let microfacet = self.microfacet.iter_mut().flat_map(|microfacet| {
             [&mut microfacet.roughness_texture, &mut microfacet.metallic_texture]
         });
@@ -99,6 +101,7 @@ impl Default for Material {
             transmission: Vec3::ONE,
             base_texture: None,
             opacity_texture: None,
+            blended: false,
             microfacet: None,
         }
     }

@@ -219,6 +219,11 @@ pub fn color<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     three(from, 0.0, 1.0).map(|v| v.as_vec3())
 }
 
+/// A factor from 0.
+pub fn factor<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+    within(from, 0.0, FAR)
+}
+
 /// As [`color`], where nothing may be said.
 pub fn maybe_color<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec3>, D::Error> {
     color(from).map(Some)

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use anyhow::Result;
-use common::model::text::{Folder, quoted, shown};
+use common::model::text::{Folder, Named, quoted, shown};
 use common::model::{Model, gltf, obj, turn_outwards};
 use common::scene::{Camera, Instance, Material, Mesh, REACH, Scene, assets, place_position};
 use glam::{Affine3A, Mat3A, Vec3};
@@ -13,14 +13,15 @@ use toml::Spanned;
 
 use super::departure;
 use super::description::{
-    CameraTable, Description, LensTable, PieceTable, PlaneTable, SphereTable,
+    CameraTable, Description, LensTable, PieceTable, PlaneTable, Sky, SkyTable, SphereTable,
 };
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
 use crate::composition::{close, pinhole};
 use crate::{
-    Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLens, is_body, is_glass,
+    Box, Composition, Environment, Finish, MAX_LIGHTS, Node, SKIES, Sphere, Strands, ThinLens,
+    is_blended, is_body, is_glass,
 };
 
 /// Pieces, spheres, boxes, solids and materials, each.
@@ -68,6 +69,7 @@ impl Description {
             let found = land.get_ref().heightfield();
             found.map_err(|what| source.error(land.span().start, what))
         });
+        let (sky, environment) = self.sky(path, source, &mut model.warnings)?;
         let mut composition = Composition {
             finishes,
             lens,
@@ -81,7 +83,8 @@ impl Description {
             strands: Strands::default(),
             heightfield: heightfield.transpose()?,
             filtered: self.picture.filtered,
-            sky: self.sky,
+            sky,
+            environment,
             samples: self.picture.samples,
             light_samples: self.picture.light_samples,
             depth: self.picture.depth,
@@ -103,15 +106,7 @@ impl Description {
                 obj::load_own(&assets().join("chess.obj"))
             };
         };
-        let words = |what: &str| what.replace("the OBJ file's folder", "the scene file's folder");
-        let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {
-            let escape = if named.get_ref().contains(char::is_control) {
-                "; a `\\` in a text begins an escape: write `/` between folders"
-            } else {
-                ""
-            };
-            source.error(named.span().start, &format!("{}{escape}", words(&error.to_string())))
-        })?;
+        let found = find_file(path, "model", named.get_ref(), named.span().start, source)?;
         if gltf::is_gltf(&found.beside) {
             let what = "`model` names a glTF file, which has its own scene; write an OBJ file here, or open the \
                         glTF file by --scene";
@@ -120,10 +115,45 @@ impl Description {
         // It keeps its place, because the scene file's other coordinates belong to it.
         let mut model = obj::load(&found.beside)?;
         if let Some(instead) = &found.instead {
-            let what = source.error(named.span().start, &words(instead));
+            let what = source.error(named.span().start, &of_scene_file(instead));
             model.warnings.insert(0, format!("{what}; the file of that name beside it is taken"));
         }
         Ok(model)
+    }
+
+    /// How bright the sky is, and the picture that it is.
+    fn sky(
+        &self,
+        path: &Path,
+        source: &Source,
+        warnings: &mut Vec<String>,
+    ) -> Result<(f32, Option<Environment>)> {
+        let Some(sky) = &self.sky else { return Ok((1.0, None)) };
+        let at = sky.span().start;
+        let table = match sky.get_ref() {
+            Sky::Brightness(brightness) => return Ok((*brightness, None)),
+            Sky::Picture(table) => table,
+        };
+        let environment = match (&table.file, &table.name) {
+            (Some(file), None) => {
+                let found = find_file(path, "file", file, at, source)?;
+                let (environment, told) = Environment::open(&found.beside)?;
+                warnings.extend(found.instead.iter().map(|instead| {
+                    let what = source.error(at, &of_scene_file(instead));
+                    format!("{what}; the file of that name beside it is taken")
+                }));
+                warnings.extend(told);
+                environment
+            }
+            (None, Some(name)) if SKIES.contains(&name.as_str()) => Environment::own(name)?,
+            _ => {
+                let what = "a sky has a `file`, such as \"sky.exr\", or the `name` of one of chapter 46: \"day\" or \
+                            \"evening\"";
+                return Err(source.error(at, what));
+            }
+        };
+        let &SkyTable { rotation, brightness, .. } = table;
+        Ok((1.0, Some(Environment { rotation, brightness, ..environment })))
     }
 
     /// Adds and changes materials, and returns the number of each name, and the finishes.
@@ -132,7 +162,7 @@ impl Description {
         materials: &mut Vec<Material>,
         source: &Source,
     ) -> Result<(Numbers, Vec<Finish>)> {
-        let mut finishes = vec![Finish::NONE; materials.len()];
+        let mut finishes: Vec<_> = materials.iter().map(Finish::of).collect();
         let mut numbers = numbers(materials.iter().map(|material| &material.name));
         let mut painted = HashSet::new();
         for paint in &self.material {
@@ -152,8 +182,10 @@ impl Description {
                 materials.len() - 1
             });
             let wrong = |what: &'static str| source.error(paint.span().start, what);
+            paint.get_ref().check_rough().map_err(wrong)?;
             paint.get_ref().apply(&mut materials[number]);
-            finishes[number] = paint.get_ref().finish().map_err(wrong)?;
+            let blended = is_blended(&materials[number]).into();
+            finishes[number] = Finish { blended, ..paint.get_ref().finish().map_err(wrong)? };
             if is_glass(&materials[number]) {
                 paint.get_ref().check_glass().map_err(wrong)?;
             } else if paint.get_ref().index.is_some() || paint.get_ref().through.is_some() {
@@ -244,6 +276,23 @@ impl Description {
         let mesh = told.mesh.map(|what| format!("{}: {what}", shown(path)));
         to.scene.model.warnings.extend([spheres, boxes, solids, mesh].into_iter().flatten());
     }
+}
+
+/// A message about a file, in the words of a scene file.
+fn of_scene_file(what: &str) -> String {
+    what.replace("the OBJ file's folder", "the scene file's folder")
+}
+
+/// The file that a key of the scene file names, in its folder or below.
+fn find_file(path: &Path, key: &str, named: &str, at: usize, source: &Source) -> Result<Named> {
+    Folder::of(path)?.find(key, named, None).map_err(|error| {
+        let escape = if named.contains(char::is_control) {
+            "; a `\\` in a text begins an escape: write `/` between folders"
+        } else {
+            ""
+        };
+        source.error(at, &format!("{}{escape}", of_scene_file(&error.to_string())))
+    })
 }
 
 /// Every mesh once, where its file has it.

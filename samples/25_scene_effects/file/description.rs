@@ -8,8 +8,9 @@
 
 use common::scene::LightKind;
 use glam::{DVec3, Vec2, Vec3};
-use serde::Deserialize;
-use toml::Spanned;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+use toml::{Spanned, Value};
 
 use super::bounded;
 use crate::{GlassKind, Pattern};
@@ -22,8 +23,7 @@ pub(super) struct Description {
     pub(super) _version: i64,
     pub(super) model: Option<Spanned<String>>,
     pub(super) position: Option<Spanned<String>>,
-    #[serde(default = "one", deserialize_with = "bounded::part")]
-    pub(super) sky: f32,
+    pub(super) sky: Option<Spanned<Sky>>,
     #[serde(default)]
     pub(super) picture: PictureTable,
     pub(super) camera: Spanned<CameraTable>,
@@ -43,6 +43,34 @@ pub(super) struct Description {
     #[serde(default)]
     pub(super) strand: Vec<Spanned<StrandTable>>,
     pub(super) heightfield: Option<Spanned<HeightfieldTable>>,
+}
+
+/// How bright the sky is, or the picture that it is.
+pub(super) enum Sky {
+    Brightness(f32),
+    Picture(SkyTable),
+}
+
+impl<'de> Deserialize<'de> for Sky {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let value = Value::deserialize(from)?;
+        let sky = match value {
+            Value::Table(_) => SkyTable::deserialize(value).map(Self::Picture),
+            _ => bounded::part(value).map(Self::Brightness),
+        };
+        sky.map_err(|error| D::Error::custom(error.message()))
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table, [sky]")]
+pub(super) struct SkyTable {
+    pub(super) file: Option<String>,
+    pub(super) name: Option<String>,
+    #[serde(default, deserialize_with = "bounded::degrees")]
+    pub(super) rotation: f32,
+    #[serde(default = "one", deserialize_with = "bounded::factor")]
+    pub(super) brightness: f32,
 }
 
 #[derive(Deserialize)]
@@ -129,7 +157,12 @@ pub(super) struct MaterialTable {
     pub(super) emission: Option<Vec3>,
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) opacity: Option<f32>,
+    pub(super) blended: Option<bool>,
     pub(super) mirror: Option<bool>,
+    #[serde(default, deserialize_with = "bounded::maybe_part")]
+    pub(super) roughness: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_part")]
+    pub(super) metallic: Option<f32>,
     #[serde(default, deserialize_with = "bounded::maybe_glass")]
     pub(super) glass: Option<GlassKind>,
     #[serde(default, deserialize_with = "bounded::maybe_index")]

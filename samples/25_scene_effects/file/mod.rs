@@ -61,7 +61,7 @@ pub fn open(path: &Path) -> Result<Composition> {
 
 /// Warns of what is not shown, and checks that what shines can be listed.
 fn checked(mut scene: Composition, path: &Path) -> Result<Composition> {
-    let looks = [Look::Mirror, Look::Holes, Look::Transparency, Look::Glass];
+    let looks = [Look::Mirror, Look::Holes, Look::Transparency, Look::Glass, Look::Microfacet];
     scene.scene.show_only(&looks, &shown(path).to_string());
     scene.lamps().with_context(|| shown(path))?;
     Ok(scene)

@@ -8,7 +8,7 @@ use common::model::text::quoted;
 use toml::Spanned;
 
 use super::source::Source;
-use crate::Finish;
+use crate::{Finish, rough_textures};
 
 /// Positions by name: the first of several.
 pub(super) type Numbers = HashMap<String, usize>;
@@ -59,7 +59,8 @@ pub(super) fn opaque(
 ) -> Result<u32> {
     let number = find(model, materials, name, source)?;
     let material = &model.materials[number];
-    let textured = material.has_cutout() || material.base_texture.is_some();
+    let textured = material.base_texture.or(rough_textures(material)).is_some();
+    let textured = textured || material.has_cutout();
     if textured || finishes[number].lines > 0.0 {
         let what = format!(
             "{} has holes, a texture or lines, which only meshes can have",

@@ -1,6 +1,6 @@
 //! Converts a table of a scene file to its value.
 
-use common::scene::{DiskLight, Light, LightKind, Material, PointLight, Sun};
+use common::scene::{DiskLight, Light, LightKind, Material, Microfacet, PointLight, Sun};
 
 use super::description::{HeightfieldTable, LightTable, MaterialTable, PlaneTable};
 use crate::{BoardPlane, Finish, GlassKind, Heightfield, SceneLight};
@@ -63,6 +63,7 @@ impl MaterialTable {
         material.shininess = self.shininess.unwrap_or(material.shininess);
         material.emission = self.emission.unwrap_or(material.emission);
         material.opacity = self.opacity.unwrap_or(material.opacity);
+        material.blended = self.blended.unwrap_or(material.blended);
         if let Some(mirror) = self.mirror {
             material.illumination = if mirror { 3 } else { 2 };
         }
@@ -70,8 +71,31 @@ impl MaterialTable {
             material.illumination = if glass == GlassKind::Thin { 9 } else { 7 };
             material.refraction = 1.5;
         }
+        if self.mirror.is_some() || self.glass.is_some() {
+            material.microfacet = None;
+        }
+        if self.roughness.is_some() || self.metallic.is_some() {
+            let usual = Microfacet { color: material.base_color, ..Microfacet::default() };
+            material.microfacet.get_or_insert(usual);
+        }
+        if let Some(microfacet) = &mut material.microfacet {
+            microfacet.color = self.color.unwrap_or(microfacet.color);
+            microfacet.roughness = self.roughness.unwrap_or(microfacet.roughness);
+            microfacet.metallic = self.metallic.unwrap_or(microfacet.metallic);
+        }
         material.refraction = self.index.unwrap_or(material.refraction);
         material.transmission = self.through.unwrap_or(material.transmission);
+    }
+
+    /// Checks that a surface is not of two kinds.
+    pub(super) fn check_rough(&self) -> Result<(), &'static str> {
+        let &Self { mirror, glass, roughness, metallic, .. } = self;
+        if roughness.or(metallic).is_some() && (mirror == Some(true) || glass.is_some()) {
+            return Err(
+                "a mirror and glass have no `roughness` and no `metallic`; take one of them out",
+            );
+        }
+        Ok(())
     }
 
     /// Checks that nothing is said of glass that it cannot be.
@@ -103,6 +127,7 @@ impl MaterialTable {
             ink: ink.unwrap_or(Finish::NONE.ink),
             lines: lines.unwrap_or(Finish::NONE.lines),
             pattern: pattern.map_or(Finish::NONE.pattern, u32::from),
+            ..Finish::NONE
         })
     }
 }

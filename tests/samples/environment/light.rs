@@ -36,7 +36,7 @@ fn four_samplers_have_one_mean() {
     }
     // The mistake of the page: the sine of the angle from the pole is forgotten.
     let shaders = shaders_with(
-        "46_environment/sky_map.glsl",
+        "common/sky_map.glsl",
         "texel.radiance, texel.density);",
         "texel.radiance, texel.density * push.sky.rows.at[chosen / sky.size.x].height * float(sky.size.y) / 3.14159);",
     );
@@ -86,7 +86,7 @@ fn integral(sky: &Panorama, alpha: f64, view: DVec3) -> f64 {
 const ESTIMATE: &str = "
     float cosine = (float(at.y) + 0.5) / 8.0;
     vec3 view = vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine);
-    Microfacets surface = microfacets(vec3(1.0), ROUGHNESS, 1.0, view);
+    Microfacets surface = microfacets(push.rough, vec3(1.0), ROUGHNESS, 1.0, view);
     for (uint i = 0; i < 1024; i++) {
         vec4 u = random(at, i, 0, 9), w = random(at, i, 0, 10);
         float light = 0.0;

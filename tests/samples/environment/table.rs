@@ -80,7 +80,7 @@ fn no_direction_by_chance_has_an_angle_beyond_pi() {
         float noted(float angle) { widest = max(widest, abs(angle)); return angle; }
         #define cos(angle) cos(noted(angle))
         #define sin(angle) sin(noted(angle))
-        #include \"sky_map.glsl\"";
+        #include \"common/sky_map.glsl\"";
     // The numbers that complete a turn, and some between, in the outermost texels.
     let body =
         "float u = at.x < 32 ? float(16777215 - at.x) / 16777216.0 : float(at.x - 32) / 96.0;
@@ -91,7 +91,7 @@ fn no_direction_by_chance_has_an_angle_beyond_pi() {
         answer = vec4(widest, direction);";
     for sampling in ["sampling=map", "sampling=uniform"] {
         let folder = copy_of_shaders();
-        let include = "#include \"sky_map.glsl\"";
+        let include = "#include \"common/sky_map.glsl\"";
         replace_line(folder.path(), "46_environment/camera.rgen", include, noting);
         let sets = set(&[sampling]);
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();

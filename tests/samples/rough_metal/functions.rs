@@ -46,11 +46,11 @@ fn the_brdf_is_that_of_f64_and_the_same_both_ways() {
         float roughness = 0.1 * float(1 + at.y % 10);
         float metallic = at.y < 10 ? 1.0 : 0.5;
         vec3 color = vec3(1.0, 0.6, 0.2);
-        Microfacets there = microfacets(color, roughness, metallic, view);
-        Microfacets back = microfacets(color, roughness, metallic, light);
+        Microfacets there = microfacets(push.rough, color, roughness, metallic, view);
+        Microfacets back = microfacets(push.rough, color, roughness, metallic, light);
         vec3 one = reflected_from(there, light) / light.z;
         vec3 other = reflected_from(back, view) / view.z;
-        Microfacets white = microfacets(vec3(1.0), roughness, 1.0, view);
+        Microfacets white = microfacets(push.rough, vec3(1.0), roughness, 1.0, view);
         vec3 unlike = abs(one - other) / one;
         answer = vec4(largest(unlike), reflected_from(white, light).r, roughness, largest(one));";
     let declarations = pairs_in_glsl(&pairs);
@@ -143,7 +143,7 @@ const COUNT: &str = "
     uint bad = 0;
     float most = 0.0;
     for (uint kind = 0; kind < 6; kind++) {
-        Microfacets surface = microfacets(vec3(kind % 2), roughness, 0.5 * float(kind / 2), view);
+        Microfacets surface = microfacets(push.rough, vec3(kind % 2), roughness, 0.5 * float(kind / 2), view);
         for (uint i = 0; i < 64; i++) {
             float c = COSINES[i / 8], a = 0.7853982 * float(i % 8);
             float s = sqrt(max(1.0 - c * c, 0.0));
@@ -187,10 +187,10 @@ fn no_facet_by_chance_has_an_angle_beyond_pi() {
         float noted(float angle) { widest = max(widest, abs(angle)); return angle; }
         #define cos(angle) cos(noted(angle))
         #define sin(angle) sin(noted(angle))
-        #include \"microfacet.glsl\"";
+        #include \"common/microfacet.glsl\"";
     let folder = copy_of_shaders();
     let file = "45_rough_metal/camera.rgen";
-    replace_line(folder.path(), file, "#include \"microfacet.glsl\"", noting);
+    replace_line(folder.path(), file, "#include \"common/microfacet.glsl\"", noting);
     // The numbers that complete a turn, and some between.
     let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;
         vec2 numbers = vec2(float(at.x) / 64.0, u);

@@ -28,7 +28,7 @@ fn furnace(metallic: u32, sets: &[&str]) -> Vec<Estimate> {
         "float cosine = (float(at.x) + 0.5) / {COLUMNS}.0;
         cosine *= cosine;
         vec3 view = vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine);
-        Microfacets surface = microfacets(vec3(1.0), 0.1 * float(at.y), {metallic}.0, view);
+        Microfacets surface = microfacets(push.rough, vec3(1.0), 0.1 * float(at.y), {metallic}.0, view);
         for (uint i = 0; i < {SAMPLES}; i++) {{
             vec4 u = random(at, i, 0, 9);
             float weight = bounce(surface, u.x, u.yz).weight.r;

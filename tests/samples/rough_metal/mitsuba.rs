@@ -30,7 +30,7 @@ fn pixels(picture: &Picture, area: &Value) -> Vec<f64> {
 /// The spheres without compensation; if `separable`, with Mitsuba's shadowing.
 fn picture(separable: bool, sets: &[&str]) -> Picture {
     let shaders = shaders_with(
-        "45_rough_metal/microfacet.glsl",
+        "common/microfacet.glsl",
         "return light.z / (light.z * stretched(alpha, view.z) + view.z * stretched(alpha, light.z));",
         if separable {
             "return 2.0 * light.z / ((view.z + stretched(alpha, view.z)) * (light.z + stretched(alpha, light.z)));"

@@ -18,7 +18,7 @@ fn bounces(sets: &[&str]) -> Vec<[f64; 3]> {
             vec4 u = random(at, i, 0, 9);
             float cosine = sqrt((float(at.x) + u.w) / 64.0);
             vec3 view = vec3(sqrt(max(1.0 - cosine * cosine, 0.0)), 0.0, cosine);
-            Microfacets surface = microfacets(vec3(1.0), 0.1 * float(at.y), 1.0, view);
+            Microfacets surface = microfacets(push.rough, vec3(1.0), 0.1 * float(at.y), 1.0, view);
             Bounce next = bounce(surface, u.x, u.yz);
             float light = next.weight.r * sky(vec3(next.direction.x, next.direction.z, next.direction.y)).g;
             answer += vec4(next.weight.r, light, light * light, next.weight.r > 0.0 ? 0.0 : 1.0) / {SAMPLES}.0;

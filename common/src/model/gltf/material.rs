@@ -234,6 +234,7 @@ fn set_alpha(
         }
         AlphaMode::Blend => {
             material.opacity_texture = texture.as_ref().and_then(is_alpha);
+            material.blended = true;
             material.opacity = alpha;
             if alpha == 0.0 {
                 material.opacity = 1.0;

@@ -1,12 +1,15 @@
+// Taught by 46_environment.
+//
 // The picture of the sky: the light of a direction, and directions chosen by their light.
 //
 // Row 0 is up, and the middle column looks along -z, with x at its right.
-#include "common/solid_angle.glsl"
+#include "sky.glsl"
+#include "solid_angle.glsl"
 
 const float TURN = 6.283185307;
 
 // ANCHOR: lookup
-// The nearest texel. Between four of them the light would change within a texel, and the density would not.
+// The nearest texel, not a mean of four: the light must be constant in a texel, as the density is.
 Texel texel_at(SkyAddresses sky, float rotation, vec3 direction) {
     float around = angle_between(-direction.z, abs(direction.x)) / TURN;
     float u = fract(0.5 + (direction.x < 0.0 ? -around : around) + rotation);
@@ -27,10 +30,10 @@ uint chosen_texel(SkyAddresses sky, vec2 u) {
 // A direction in a texel, uniform in its solid angle: even around, and even in height.
 vec3 direction_in(SkyAddresses sky, float rotation, uint texel, vec2 u) {
     uvec2 at = uvec2(texel % sky.size.x, texel / sky.size.x);
-    Row row = sky.rows.at[at.y];
+    SkyRow row = sky.rows.at[at.y];
     float y = row.top - u.y * row.height;
     float radius = sqrt(max((1.0 - y) * (1.0 + y), 0.0));
-    // From -pi to pi: beyond, Vulkan says nothing of a sine's error.
+    // From -pi to pi: Vulkan bounds a sine's error only there.
     float angle = 6.283185 * (fract((float(at.x) + u.x) / float(sky.size.x) - rotation) - 0.5);
     return normalize(vec3(radius * sin(angle), y, -radius * cos(angle)));
 }

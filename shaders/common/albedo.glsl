@@ -1,4 +1,7 @@
+// Taught by 45_rough_metal.
+//
 // The light that the facets reflect in all, from a table: the directional albedo.
+#include "rough.glsl"
 
 // ANCHOR: albedo
 // The table has as many rows, for roughness, as columns, for the angle.
@@ -27,30 +30,28 @@ Albedo between(Albedo a, Albedo b, float part) {
 // ANCHOR: lookup
 // Rough surfaces lose light at all angles, smooth ones only at angles as low as alpha: so the columns are evenly
 // spaced in cosine / (cosine + alpha).
-Albedo albedo(float alpha, float roughness, float cosine) {
+Albedo albedo(RoughAddresses rough, float alpha, float roughness, float cosine) {
     if (alpha == 0.0) {
         return Albedo(0.0, 0.0);
     }
     vec2 at = float(ALBEDO_STEPS - 1) * vec2(cosine * (1.0 + alpha) / (cosine + alpha), roughness);
     uvec2 cell = min(uvec2(at), ALBEDO_STEPS - 2);
     vec2 part = at - vec2(cell);
-    Albedos table = push.rough.albedos;
     uint first = cell.y * ALBEDO_STEPS + cell.x;
-    Albedo row = between(table.at[first], table.at[first + 1], part.x);
-    Albedo next = between(table.at[first + ALBEDO_STEPS], table.at[first + ALBEDO_STEPS + 1], part.x);
+    Albedo row = between(rough.albedos.at[first], rough.albedos.at[first + 1], part.x);
+    Albedo next = between(rough.albedos.at[first + ALBEDO_STEPS], rough.albedos.at[first + ALBEDO_STEPS + 1], part.x);
     return between(row, next, part.y);
 }
 // ANCHOR_END: lookup
 
 // The mean over all directions.
-Albedo mean_albedo(float alpha, float roughness) {
+Albedo mean_albedo(RoughAddresses rough, float alpha, float roughness) {
     if (alpha == 0.0) {
         return Albedo(0.0, 0.0);
     }
     float at = float(ALBEDO_STEPS - 1) * roughness;
-    Albedos means = push.rough.means;
     uint cell = min(uint(at), ALBEDO_STEPS - 2);
-    Albedo mean = between(means.at[cell], means.at[cell + 1], at - float(cell));
+    Albedo mean = between(rough.means.at[cell], rough.means.at[cell + 1], at - float(cell));
     // The table has what is lost relative to alpha, which changes little from row to row.
     return Albedo(mean.lost * alpha, mean.more);
 }

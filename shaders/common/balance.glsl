@@ -1,8 +1,10 @@
+// Taught by 46_environment.
+//
 // Two ways to find the light of the sky, and what each of them counts.
 //
 // A path leaves a surface by a facet or by the rest, which are separate parts of the BRDF (45). So each part has a
 // density of its own, and is balanced with shadow rays by itself (Veach and Guibas 1995).
-#include "45_rough_metal/microfacet.glsl"
+#include "microfacet.glsl"
 
 // ANCHOR: density
 // The density of directions that `by_facet` mirrors the view to; `facet` is half way between the two.
@@ -24,12 +26,11 @@ float density_of(Microfacets surface, float choice, Bounce next) {
 
 // ANCHOR: balanced
 // The weight of a shadow ray for the light from a direction: BRDF times cosine, divided by the density of shadow rays,
-// and by that of bounces if these find the same light.
-vec3 balanced(Microfacets surface, vec3 light, float density) {
+// and by that of bounces if these find the same light: `bounces` is 1 then, and else 0.
+vec3 balanced(Microfacets surface, vec3 light, float density, float bounces) {
     if (light.z <= 0.0) {
         return vec3(0.0);
     }
-    float bounces = SAMPLER == SAMPLER_BOTH ? 1.0 : 0.0;
     float cosine = light.z / PI;
     vec3 sum = rest_of(surface, light) * cosine / (density + bounces * (1.0 - surface.polished) * cosine);
     if (surface.alpha > 0.0) {
@@ -41,9 +42,3 @@ vec3 balanced(Microfacets surface, vec3 light, float density) {
     return sum;
 }
 // ANCHOR_END: balanced
-
-// As `balanced`, for a surface that scatters evenly with the probability `matte`, without its colour.
-float balanced_matte(float cosine, float matte, float density) {
-    float chance = max(cosine, 0.0) / PI;
-    return chance / (density + (SAMPLER == SAMPLER_BOTH ? matte * chance : 0.0));
-}

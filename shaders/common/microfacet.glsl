@@ -1,8 +1,10 @@
+// Taught by 45_rough_metal.
+//
 // A surface of microfacets: tiny mirrors, each turned a little from the normal.
 //
 // Directions are in the surface's own frame, whose z is the normal: `view` points to the eye, `light` to the light,
 // and a facet mirrors one into the other if its own normal is half way between them.
-#include "common/surface.glsl"
+#include "surface.glsl"
 #include "albedo.glsl"
 
 const float PI = 3.14159265;
@@ -80,26 +82,38 @@ struct Microfacets {
     Albedo seen;         // from the view
     Albedo all;          // the mean over all directions
     float roughness;
+    RoughAddresses rough;    // the table of what facets reflect in all
 };
 
-Microfacets microfacets(vec3 color, float roughness, float metallic, vec3 view) {
+// The part of the light from all sides that the facets reflect at first.
+vec3 by_facets(Microfacets surface) {
+    return COMPENSATION ? reflected(surface.head_on, surface.seen, surface.view.z)
+        : fresnel(surface.head_on, surface.view.z);
+}
+
+// The part that the rest sends to the eye.
+vec3 by_rest(Microfacets surface) {
+    return COMPENSATION
+        ? surface.metal * surface.seen.lost + surface.matte * below_polish(surface.seen, surface.view.z)
+        : surface.matte * max(1.0 - fresnel(INSULATOR, surface.view.z), 0.0);
+}
+
+Microfacets microfacets(RoughAddresses rough, vec3 color, float roughness, float metallic, vec3 view) {
     Microfacets surface;
+    surface.rough = rough;
     surface.view = vec3(view.xy, max(abs(view.z), GRAZING));
     surface.alpha = roughness * roughness < SMOOTH ? 0.0 : roughness * roughness;
     surface.roughness = roughness;
     surface.head_on = mix(INSULATOR, color, metallic);
     surface.matte = (1.0 - metallic) * color;
     surface.metal = vec3(0.0);
-    vec3 polish = fresnel(surface.head_on, surface.view.z);
-    vec3 rest = surface.matte * max(1.0 - fresnel(INSULATOR, surface.view.z), 0.0);
     if (COMPENSATION) {
-        surface.seen = albedo(surface.alpha, roughness, surface.view.z);
-        surface.all = mean_albedo(surface.alpha, roughness);
+        surface.seen = albedo(surface.rough, surface.alpha, roughness, surface.view.z);
+        surface.all = mean_albedo(rough, surface.alpha, roughness);
         surface.metal = metallic * reflected_again(color, surface.all);
-        polish = reflected(surface.head_on, surface.seen, surface.view.z);
-        rest = surface.metal * surface.seen.lost + surface.matte * below_polish(surface.seen, surface.view.z);
     }
-    surface.polished = largest(polish) / max(largest(polish) + largest(rest), 1e-30);
+    float polish = largest(by_facets(surface));
+    surface.polished = polish / max(polish + largest(by_rest(surface)), 1e-30);
     return surface;
 }
 // ANCHOR_END: surface
@@ -113,7 +127,7 @@ vec3 rest_of(Microfacets surface, vec3 light) {
         vec3 facet = half_way(surface.view, light);
         return surface.matte * max(1.0 - facet_fresnel(INSULATOR, surface.view, facet), 0.0);
     }
-    Albedo lit = albedo(surface.alpha, surface.roughness, light.z);
+    Albedo lit = albedo(surface.rough, surface.alpha, surface.roughness, light.z);
     vec3 metal = surface.metal * surface.seen.lost * lit.lost / max(surface.all.lost, 1e-30);
     vec3 passed = below_polish(surface.seen, surface.view.z) * below_polish(lit, light.z)
         / (1.0 - mean_reflected(INSULATOR, surface.all));
