@@ -106,8 +106,9 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
         // A row vector times a matrix is the transposed product: from the world into the frame.
         Relief relief = relief_of(rough.slope, -ray.direction * frame);
         vec3 light = normalize(to_light) * frame;
-        Reflection next = reflection(relief, hit.color, rough.roughness, rough.metallic, light, path.pixel, path.bounce);
-        gather(path, material.emission + arriving * next.sun);
+        Reflection next = reflection(relief, hit.color, rough.roughness, rough.metallic, light, arriving, push.most,
+            path.pixel, path.bounce);
+        gather(path, material.emission + next.sun);
         vec3 direction = frame * next.direction;
         bool is_below = !next.is_black && dot(direction, hit.face) <= 0.0;
         bool is_dropped = is_below && (RULE == RULE_CUT || RULE == RULE_BENT);

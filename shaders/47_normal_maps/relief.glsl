@@ -74,7 +74,7 @@ vec3 by_wall(Relief relief, vec3 direction) {
 
 // The light of the sun, and a way for the path to go on.
 struct Reflection {
-    vec3 sun;          // the part of the sun's light that goes to the eye: BRDF times cosine
+    vec3 sun;          // the light of the sun that goes to the eye
     vec3 direction;
     vec3 weight;
     bool is_black;     // the eye is below the mapped normal's horizon
@@ -98,7 +98,9 @@ vec3 sun_on(Relief relief, Microfacets surface, mat3 frame, vec3 light) {
 
 // ANCHOR: reflection
 // The reflection of a hit. A path between two facets is followed until it leaves; the sun lights each of its points.
-Reflection reflection(Relief relief, vec3 color, float roughness, float metallic, vec3 light, uvec2 pixel, uint bounce_number) {
+// `arriving` is the sun's light, from the direction `light`; `most` bounds what a further reflection adds, unless it is 0.
+Reflection reflection(Relief relief, vec3 color, float roughness, float metallic, vec3 light, vec3 arriving,
+        float most, uvec2 pixel, uint bounce_number) {
     Reflection all = Reflection(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(1.0), false, 0);
     mat3 frame = frame_of(relief.mapped);
     vec3 back = relief.view;    // where the path has come from
@@ -117,7 +119,8 @@ Reflection reflection(Relief relief, vec3 color, float roughness, float metallic
         float choice = numbers(pixel, push.sample_index, bounce_number, first + DIMENSION_CHOICE, push.seed).x;
         vec2 u = numbers(pixel, push.sample_index, bounce_number, first + DIMENSION_BOUNCE, push.seed);
         Microfacets surface = microfacets(color, roughness, metallic, back * frame);
-        all.sun += all.weight * sun_on(relief, surface, frame, light);
+        vec3 sun = all.weight * arriving * sun_on(relief, surface, frame, light);
+        all.sun += all.count > 0 && most > 0.0 ? sun * most / max(largest(sun), most) : sun;
         Bounce next = bounce(surface, choice, u);
         all.weight *= next.weight;
         all.direction = frame * (next.is_mirrored ? vec3(-surface.view.xy, surface.view.z) : next.direction);

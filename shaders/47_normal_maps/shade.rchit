@@ -28,7 +28,7 @@ vec2 slope_at(InstanceRecord instance, MicrofacetRecord record, Surface surface,
     mat2x3 axes = texture_axes(sides, mat2(b.uv - a.uv, c.uv - a.uv), hit.normal);
     vec3 texel = textureLod(textures[nonuniformEXT(record.normal_texture)], surface.uv, 0.0).xyz;
     // `hit.normal` is on the side that is seen, and the map is made for the other one if that was turned.
-    bool is_behind = dot(surface.normal * gl_WorldToObjectEXT, hit.normal) < 0.0;
+    bool is_behind = dot(vec3(surface.normal * gl_WorldToObjectEXT), hit.normal) < 0.0;
     return mapped_slope(texel_slope(texel, record.normal_scale), axes, frame_of(hit.normal), is_behind);
 }
 // ANCHOR_END: mapped

@@ -124,7 +124,7 @@ impl<'a> Images<'a> {
     fn read(
         &mut self,
         index: Index<Image>,
-        instead: &str,
+        instead: &'static str,
         features: &mut Features,
     ) -> Option<Texture> {
         let number = index.value();
@@ -138,7 +138,7 @@ impl<'a> Images<'a> {
             Err(error) => {
                 let place =
                     if number == NONE { "an image".to_owned() } else { format!("image {number}") };
-                features.note("image", 1, || format!("{place}: {error}; {instead}"));
+                features.note(instead, 1, || format!("{place}: {error}; {instead}"));
                 None
             }
         }
