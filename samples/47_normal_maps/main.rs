@@ -53,7 +53,7 @@ struct Demo {
 
 common::shader_enum! {
     /// The quantity shown per pixel.
-    enum Show: SHOW { Picture, Normals, Below, Lost, Rays }
+    enum Show: SHOW { Picture, Normals, Below, Lost }
     /// The rule for eyes and rays that a mapped normal puts below the surface.
     enum Rule: RULE {
         /// The map's normal as it is.

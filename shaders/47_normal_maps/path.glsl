@@ -5,7 +5,8 @@ struct Path {
     uvec2 pixel;       // whose colour it makes
     vec3 color;        // what the eye sees so far
     vec3 throughput;   // the part of the next hit's light that reaches the eye
-    uint bounce;       // the next ray's number: 0 comes from the camera
+    uint bounce;       // the next reflection's number: 0 comes from the camera
+    bool is_between;   // it goes back and forth between two facets of the last hit: no ray is traced
 };
 
 struct Ray {
@@ -74,7 +75,7 @@ void scatter(inout Path path, inout Ray ray, Hit hit, MaterialRecord material, v
 
 // Ends a path that shows something else than light.
 void show(inout Path path, vec3 normal, bool is_below, bool is_lost) {
-    if (SHOW == SHOW_NORMALS || SHOW == SHOW_BELOW || SHOW == SHOW_LOST) {
+    if (SHOW != SHOW_PICTURE) {
         path.color = SHOW == SHOW_NORMALS ? 0.5 + 0.5 * normal : vec3(SHOW == SHOW_BELOW ? is_below : is_lost);
         path.throughput = vec3(0.0);
     }
@@ -84,8 +85,7 @@ void show(inout Path path, vec3 normal, bool is_below, bool is_lost) {
 void advance(inout Path path, inout Ray ray, RoughHit rough) {
     Hit hit = rough.hit;
     if (hit.t < 0.0) {
-        bool is_light = SHOW == SHOW_PICTURE || SHOW == SHOW_RAYS;
-        gather(path, is_light ? hit.color : vec3(0.0));
+        gather(path, SHOW == SHOW_PICTURE ? hit.color : vec3(0.0));
         path.throughput = vec3(0.0);
         path.bounce++;
         return;
@@ -104,16 +104,17 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
     if (rough.roughness >= 0.0) {
         mat3 frame = frame_of(hit.normal);
         // A row vector times a matrix is the transposed product: from the world into the frame.
-        Relief relief = relief_of(rough.slope, -ray.direction * frame);
+        Relief relief = relief_of(rough.slope, -ray.direction * frame, path.is_between);
         vec3 light = normalize(to_light) * frame;
-        Reflection next = reflection(relief, hit.color, rough.roughness, rough.metallic, light, arriving, push.most,
-            path.pixel, path.bounce);
-        gather(path, material.emission + next.sun);
+        Reflection next = reflection(relief, hit.color, rough.roughness, rough.metallic, light, path.is_between,
+            choice, u, numbers(path, DIMENSION_WALL).x, numbers(path, DIMENSION_LEAVE));
+        gather(path, (path.is_between ? vec3(0.0) : material.emission) + arriving * next.sun);
         vec3 direction = frame * next.direction;
         bool is_below = !next.is_black && dot(direction, hit.face) <= 0.0;
         bool is_dropped = is_below && (RULE == RULE_CUT || RULE == RULE_BENT);
         path.throughput *= is_dropped ? vec3(0.0) : next.weight;
-        ray.direction = RULE == RULE_NONE ? normalize(direction) : kept_above(direction, hit.face);
+        path.is_between = !next.leaves;
+        ray.direction = RULE == RULE_NONE || path.is_between ? normalize(direction) : kept_above(direction, hit.face);
         show(path, frame * relief.mapped, is_below && RULE == RULE_NONE,
             next.is_black || is_below && (is_dropped || RULE == RULE_NONE));
     } else {

@@ -51,7 +51,6 @@ const uint SHOW_PICTURE = 0;
 const uint SHOW_NORMALS = 1;
 const uint SHOW_BELOW = 2;
 const uint SHOW_LOST = 3;
-const uint SHOW_RAYS = 4;
 
 layout(constant_id = 1) const uint SKY = 0;
 const uint SKY_DAY = 0;
@@ -66,6 +65,10 @@ const uint RULE_CUT = 1;
 const uint RULE_FLIPPED = 2;
 const uint RULE_BENT = 3;
 const uint RULE_TWO_FACETS = 4;
+
+// The purposes of numbers that earlier chapters do not have.
+const uint DIMENSION_WALL = 5;
+const uint DIMENSION_LEAVE = 6;
 
 // The best of 45's choices.
 const uint SAMPLING = 2;

@@ -1,16 +1,7 @@
 // The reflection of a surface with a mapped normal, under several rules for what the map makes impossible.
 //
 // Directions are in the frame of the surface's own normal, which is z.
-#include "common/path_numbers.glsl"
 #include "45_rough_metal/microfacet.glsl"
-
-// The purposes of numbers that earlier chapters do not have; those of each further reflection follow.
-const uint DIMENSION_LEAVE = 5;
-const uint DIMENSION_WALL = 6;
-const uint DIMENSIONS = 8;
-
-// Reflections in one hollow. The light of a path that needs more leaves all the same.
-const uint REFLECTIONS = 16;
 
 // The least height of a bent mirror's ray.
 const float LIFT = 0.01;
@@ -19,7 +10,7 @@ const float LIFT = 0.01;
 // A surface at a hit: the mapped normal, and a steep wall that completes it. Enough walls make a surface that is
 // flat on the whole, as the triangle is (Schuessler, Heitz, Hanika and Dachsbacher 2017).
 struct Relief {
-    vec3 view;      // to the eye, above the surface
+    vec3 view;      // to where the path comes from: above the surface, or from the wall
     vec3 mapped;    // the normal to shade with
     vec3 wall;      // its normal, in the surface; zero without a map
     float sine;     // of the angle between the mapped normal and z: the wall's height
@@ -33,10 +24,11 @@ vec3 bent(vec3 mapped, vec3 view) {
     return mirrored.z > LIFT ? mapped : half_way(view, normalize(mirrored));
 }
 
-Relief relief_of(vec2 slope, vec3 view) {
+// `is_between` for a path that comes from the wall.
+Relief relief_of(vec2 slope, vec3 view, bool is_between) {
     float inverse = inversesqrt(1.0 + dot(slope, slope));
     Relief relief;
-    relief.view = vec3(view.xy, max(abs(view.z), GRAZING));
+    relief.view = is_between ? view : vec3(view.xy, max(abs(view.z), GRAZING));
     relief.mapped = vec3(slope * inverse, inverse);
     relief.sine = length(relief.mapped.xy);
     relief.wall = relief.sine > 0.0 ? vec3(-relief.mapped.xy / relief.sine, 0.0) : vec3(0.0);
@@ -74,15 +66,15 @@ vec3 by_wall(Relief relief, vec3 direction) {
 
 // The light of the sun, and a way for the path to go on.
 struct Reflection {
-    vec3 sun;          // the light of the sun that goes to the eye
+    vec3 sun;          // the part of the sun's light that goes back: BRDF times cosine
     vec3 direction;
     vec3 weight;
     bool is_black;     // the eye is below the mapped normal's horizon
-    uint count;        // how many reflections there were
+    bool leaves;       // false if the direction leads back to the mapped facet
 };
 
 // ANCHOR: sun
-// The part of the sun's light that the mapped facet reflects to `surface.view` directly, or by way of the wall.
+// The part of the sun's light that the mapped facet reflects, after it came directly or by way of the wall.
 vec3 sun_on(Relief relief, Microfacets surface, mat3 frame, vec3 light) {
     if (RULE != RULE_TWO_FACETS) {
         return reflected_from(surface, light * frame);
@@ -97,48 +89,28 @@ vec3 sun_on(Relief relief, Microfacets surface, mat3 frame, vec3 light) {
 // ANCHOR_END: sun
 
 // ANCHOR: reflection
-// The reflection of a hit. A path between two facets is followed until it leaves; the sun lights each of its points.
-// `arriving` is the sun's light, from the direction `light`; `most` bounds what a further reflection adds, unless it is 0.
-Reflection reflection(Relief relief, vec3 color, float roughness, float metallic, vec3 light, vec3 arriving,
-        float most, uvec2 pixel, uint bounce_number) {
-    Reflection all = Reflection(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(1.0), false, 0);
-    mat3 frame = frame_of(relief.mapped);
-    vec3 back = relief.view;    // where the path has come from
-    if (RULE == RULE_TWO_FACETS) {
-        if (numbers(pixel, push.sample_index, bounce_number, DIMENSION_WALL, push.seed).x
-                >= part_of_mapped(relief, back)) {
-            back = by_wall(relief, back);
-        }
-    } else if (RULE != RULE_FLIPPED && dot(back, relief.mapped) <= 0.0) {
-        all.weight = vec3(0.0);
-        all.is_black = true;
-        return all;
+// One reflection by the mapped facet. Before it, the wall may be in the way, and after it: `meets` and `leaves` are the
+// random numbers that decide.
+Reflection reflection(Relief relief, vec3 color, float roughness, float metallic, vec3 light, bool is_between,
+        float choice, vec2 u, float meets, vec2 leaves) {
+    Reflection next = Reflection(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0), false, true);
+    if (RULE == RULE_TWO_FACETS && !is_between && meets >= part_of_mapped(relief, relief.view)) {
+        relief.view = by_wall(relief, relief.view);
     }
-    do {
-        uint first = all.count * DIMENSIONS;
-        float choice = numbers(pixel, push.sample_index, bounce_number, first + DIMENSION_CHOICE, push.seed).x;
-        vec2 u = numbers(pixel, push.sample_index, bounce_number, first + DIMENSION_BOUNCE, push.seed);
-        Microfacets surface = microfacets(color, roughness, metallic, back * frame);
-        vec3 sun = all.weight * arriving * sun_on(relief, surface, frame, light);
-        all.sun += all.count > 0 && most > 0.0 ? sun * most / max(largest(sun), most) : sun;
-        Bounce next = bounce(surface, choice, u);
-        all.weight *= next.weight;
-        all.direction = frame * (next.is_mirrored ? vec3(-surface.view.xy, surface.view.z) : next.direction);
-        all.count++;
-        if (RULE != RULE_TWO_FACETS || largest(all.weight) <= 0.0) {
-            return all;
-        }
-        vec2 leave = numbers(pixel, push.sample_index, bounce_number, first + DIMENSION_LEAVE, push.seed);
-        if (leave.x < leaving(relief, all.direction)) {
-            return all;
-        }
-        all.direction = by_wall(relief, all.direction);
-        if (leave.y < leaving(relief, all.direction)) {
-            return all;
-        }
-        back = -all.direction;
-    } while (all.count < REFLECTIONS);
-    all.direction.z = abs(all.direction.z);
-    return all;
+    if (RULE != RULE_TWO_FACETS && RULE != RULE_FLIPPED && dot(relief.view, relief.mapped) <= 0.0) {
+        next.is_black = true;
+        return next;
+    }
+    mat3 frame = frame_of(relief.mapped);
+    Microfacets surface = microfacets(color, roughness, metallic, relief.view * frame);
+    next.sun = sun_on(relief, surface, frame, light);
+    Bounce way = bounce(surface, choice, u);
+    next.weight = way.weight;
+    next.direction = frame * (way.is_mirrored ? vec3(-surface.view.xy, surface.view.z) : way.direction);
+    if (RULE == RULE_TWO_FACETS && leaves.x >= leaving(relief, next.direction)) {
+        next.direction = by_wall(relief, next.direction);
+        next.leaves = leaves.y < leaving(relief, next.direction);
+    }
+    return next;
 }
 // ANCHOR_END: reflection

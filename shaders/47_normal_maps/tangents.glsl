@@ -20,9 +20,10 @@ vec2 texel_slope(vec3 texel, float scale) {
 // across each other; zero if the texture coordinates have no area. `sides` are two sides of the triangle in the
 // world, and `steps` those of its texture coordinates; v grows downwards.
 mat2x3 texture_axes(mat2x3 sides, mat2 steps, vec3 normal) {
-    // Very small and very large numbers alike.
-    sides /= max(largest(abs(sides[0])), largest(abs(sides[1])));
-    steps /= max(max(abs(steps[0].x), abs(steps[0].y)), max(abs(steps[1].x), abs(steps[1].y)));
+    // Products of very small or very large numbers would vanish or overflow.
+    sides /= max(max(largest(abs(sides[0])), largest(abs(sides[1]))), 1e-37);
+    vec2 most = max(abs(steps[0]), abs(steps[1]));
+    steps /= max(max(most.x, most.y), 1e-37);
     float area = determinant(steps);
     vec3 right = sides * vec2(steps[1].y, -steps[0].y) * sign(area);
     vec3 up = sides * vec2(steps[1].x, -steps[0].x) * sign(area);

@@ -1,6 +1,4 @@
-// Taught by 45_rough_metal.
-//
-// Axes across a normal.
+// Of no chapter: axes across a normal, for those whose light is computed in the frame of a surface.
 
 // The frame of a normal, which is its third axis (Duff et al., JCGT 6:1, 2017).
 mat3 frame_of(vec3 normal) {

@@ -41,7 +41,8 @@ fn a_gltf_file_is_shown_or_refused() {
     let normals = file("bevelled.png");
     let whole: [(&str, &[u8]); 3] =
         [("model.obj", &[]), ("chess.gltf", &json), ("chess.bin", &buffer)];
-    let with_picture = [&whole[..], &[("fretwork.png", &picture), ("bevelled.png", &normals)]].concat();
+    let with_picture =
+        [&whole[..], &[("fretwork.png", &picture), ("bevelled.png", &normals)]].concat();
     let run = |files: &[(&str, &[u8])]| {
         let folder = folder(files);
         let mut command = sample();

@@ -23,9 +23,34 @@ fn evaluate(declarations: &str, body: &str, size: &str, arguments: &[&str]) -> P
 }
 
 /// As [`evaluate`], with these shaders.
-fn evaluate_in(folder: &TempDir, declarations: &str, body: &str, size: &str, arguments: &[&str]) -> Picture {
+fn evaluate_in(
+    folder: &TempDir,
+    declarations: &str,
+    body: &str,
+    size: &str,
+    arguments: &[&str],
+) -> Picture {
     rough_metal::evaluate_in((NAME, folder), declarations, body, size, arguments)
 }
+
+/// Reflections until a path leaves a hit: all of them, by random numbers of their own.
+const WALK: &str = "
+struct Walk { vec3 sun, direction, weight; bool is_black; };
+Walk walk(vec2 slope, vec3 view, float roughness, vec3 light, uvec2 at, uint i) {
+    Walk all = Walk(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(1.0), false);
+    bool is_between = false;
+    for (uint k = 0; k < 256; k++) {
+        Relief relief = relief_of(slope, is_between ? -all.direction : view, is_between);
+        vec4 u = random(at, i * 256 + k, 0, 9), v = random(at, i * 256 + k, 1, 9);
+        Reflection next = reflection(relief, vec3(1.0), roughness, 1.0, light, is_between, u.x, u.yz, u.w, v.xy);
+        all = Walk(all.sun + all.weight * next.sun, next.direction, all.weight * next.weight, next.is_black);
+        if (next.leaves) {
+            break;
+        }
+        is_between = true;
+    }
+    return all;
+}";
 
 /// `sets` as the arguments of a run.
 fn set(sets: &[&str]) -> Vec<String> {

@@ -228,12 +228,11 @@ impl MaterialLibrary {
                     return Ok(());
                 }
                 let mut bumps = 1.0;
-                let named = after_options(rest, &mut |option: &str, argument: &str| {
-                    match (option, role) {
+                let named =
+                    after_options(rest, &mut |option: &str, argument: &str| match (option, role) {
                         ("-bm", Role::Heights | Role::Normals) => bumps = value.bumps(argument),
                         _ => value.pass_over(&format!("the option {option}")),
-                    }
-                });
+                    });
                 let image = match folder.find(keyword, named, Some(file)) {
                     Ok(image) => image,
                     Err(error) => {

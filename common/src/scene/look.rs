@@ -105,7 +105,8 @@ impl Model {
     /// Removes metalness, roughness and normal maps that are not shown. A texture that nothing else reads becomes a
     /// single texel: it keeps its number, because the others keep theirs.
     fn remove_all_but(&mut self, shown: &[Look]) {
-        let [microfacets, normals] = [Look::Microfacet, Look::NormalMap].map(|l| shown.contains(&l));
+        let [microfacets, normals] =
+            [Look::Microfacet, Look::NormalMap].map(|l| shown.contains(&l));
         if microfacets && normals {
             return;
         }

@@ -64,7 +64,8 @@ fn make(check: bool) -> Result<()> {
     ];
 
     let directory = Path::new(DIRECTORY);
-    let gltf::Files { json, buffer } = gltf::write(&objects, "chess.bin", ["fretwork.png", "bevelled.png"]);
+    let gltf::Files { json, buffer } =
+        gltf::write(&objects, "chess.bin", ["fretwork.png", "bevelled.png"]);
     let mut files = vec![
         ("chess.obj", obj::write(&objects, "chess.mtl").into_bytes()),
         ("chess.mtl", obj::materials("fretwork.png").into_bytes()),

@@ -2,7 +2,7 @@
 
 use serde_json::Map;
 
-use super::{evaluate, rough_twin, set, twin};
+use super::{WALK, evaluate, rough_twin, set, twin};
 use glam::DVec3;
 use run::{copy_of_shaders, expected, replace_line};
 
@@ -31,14 +31,13 @@ fn means(rule: &str, tilt: f64, roughness: f64) -> Means {
         "float cosine = sqrt((float(at.x) + 0.5) / {VIEWS}.0);
         float turn = 6.283185 * (float(at.y) + 0.5) / {TURNS}.0 - 3.141592;
         vec3 view = vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine);
-        Relief relief = relief_of({} * vec2(cos(turn), sin(turn)), view);
         for (uint i = 0; i < {SAMPLES}; i++) {{
             vec4 u = random(at, i, 0, 99);
             float angle = 6.283185 * (u.x - 0.5);
             vec3 light = vec3(sqrt(1.0 - u.y * u.y) * vec2(cos(angle), sin(angle)), u.y);
-            Reflection next = reflection(relief, vec3(1.0), {roughness}, 1.0, light, vec3(6.283185), 0.0, at, i);
+            Walk next = walk({} * vec2(cos(turn), sin(turn)), view, {roughness:?}, light, at, i);
             bool is_above = next.direction.z > 0.0;
-            answer += vec4(is_above || RULE == RULE_FLIPPED ? next.weight.r : 0.0, next.sun.r,
+            answer += vec4(is_above || RULE == RULE_FLIPPED ? next.weight.r : 0.0, 6.283185 * next.sun.r,
                 next.is_black ? 1.0 : 0.0,
                 RULE == RULE_NONE && !is_above && next.weight.r > 0.0 ? 1.0 : 0.0) / {SAMPLES}.0;
         }}",
@@ -47,7 +46,7 @@ fn means(rule: &str, tilt: f64, roughness: f64) -> Means {
     let rule = format!("rule={rule}");
     let sets = set(&[&rule]);
     let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-    let shown = evaluate("", &body, &format!("{VIEWS}x{TURNS}"), &sets);
+    let shown = evaluate(WALK, &body, &format!("{VIEWS}x{TURNS}"), &sets);
     let count = (VIEWS * TURNS) as f64;
     let mean = |k: usize| shown.pixels.iter().map(|p| f64::from(p[k])).sum::<f64>() / count;
     let most = shown.pixels.iter().map(|p| (f64::from(p[0]) - 1.0).abs()).fold(0.0, f64::max);
@@ -78,7 +77,11 @@ fn what_each_rule_loses() {
         assert_eq!(below > 0.0, rule == "none", "{rule}: {below}");
         assert_eq!(black > 0.0, matches!(rule, "none" | "cut"), "{rule}: {black}");
         // Rays and suns see one BRDF, unless rays are mirrored at the surface and suns are not.
-        assert_eq!((suns - sky).abs() < 4.0 * error, rule != "flipped", "{rule}: {suns} ± {error}, {sky}");
+        assert_eq!(
+            (suns - sky).abs() < 4.0 * error,
+            rule != "flipped",
+            "{rule}: {suns} ± {error}, {sky}"
+        );
         let name = rule.replace(' ', "-");
         held.insert(format!("{name}.below"), below.into());
         held.insert(format!("{name}.black"), black.into());
@@ -102,9 +105,12 @@ fn two_facets_lose_nothing_at_any_slope() {
 #[test]
 fn one_reflection_is_that_of_f64() {
     for rule in ["none", "cut", "bent"] {
-        for (tilt, roughness, cosine, turn) in
-            [(30f64, 0.3f64, 0.3f64, 0f64), (30.0, 0.3, 0.3, 180.0), (50.0, 0.6, 0.8, 180.0), (50.0, 0.6, 0.2, 90.0)]
-        {
+        for (tilt, roughness, cosine, turn) in [
+            (30f64, 0.3f64, 0.3f64, 0f64),
+            (30.0, 0.3, 0.3, 180.0),
+            (50.0, 0.6, 0.8, 180.0),
+            (50.0, 0.6, 0.2, 90.0),
+        ] {
             let (tilt, turn) = (tilt.to_radians(), turn.to_radians());
             let sine = (1.0 - cosine * cosine).sqrt();
             let view = DVec3::new(sine * turn.cos(), sine * turn.sin(), cosine);
@@ -112,10 +118,8 @@ fn one_reflection_is_that_of_f64() {
             let normal = if rule == "bent" { twin::bent(normal, view, 0.01) } else { normal };
             let exact = twin::reflected_from_above(roughness * roughness, normal, view, 400);
             let body = format!(
-                "Relief relief = relief_of(vec2({}, 0.0), vec3({}, {}, {}));
-                for (uint i = 0; i < 4096; i++) {{
-                    Reflection next = reflection(relief, vec3(1.0), {roughness}, 1.0, vec3(0.0, 0.0, 1.0), vec3(1.0),
-                        0.0, at, i);
+                "for (uint i = 0; i < 4096; i++) {{
+                    Walk next = walk(vec2({}, 0.0), vec3({}, {}, {}), {roughness:?}, vec3(0.0, 0.0, 1.0), at, i);
                     answer.x += next.direction.z > 0.0 ? next.weight.r / 4096.0 : 0.0;
                 }}",
                 tilt.tan(), view.x, view.y, view.z
@@ -127,10 +131,12 @@ fn one_reflection_is_that_of_f64() {
             let rule = format!("rule={rule}");
             let sets = set(&[&rule]);
             let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-            let shown = super::evaluate_in(&folder, "", &body, "16x4", &sets);
+            let shown = super::evaluate_in(&folder, WALK, &body, "16x4", &sets);
             let values: Vec<f64> = shown.pixels.iter().map(|p| p[0].into()).collect();
             let super::Estimate { mean, confidence } = super::Estimate::of(&values);
-            println!("{rule}, {tilt:.2}, {roughness}, {cosine}, {turn:.2}: {mean:.5} ± {confidence:.5}, {exact:.5}");
+            println!(
+                "{rule}, {tilt:.2}, {roughness}, {cosine}, {turn:.2}: {mean:.5} ± {confidence:.5}, {exact:.5}"
+            );
             // The integral in steps is off by about one step where the surface cuts it.
             assert!((mean - exact).abs() < confidence + 1.0 / 400.0, "{rule}: {mean}, not {exact}");
             if let (0.0, "rule=cut") = (turn, rule.as_str()) {
@@ -145,7 +151,9 @@ fn one_reflection_is_that_of_f64() {
 
 #[test]
 fn mirrors_walk_between_two_facets_as_in_f64() {
-    for (tilt, cosine, turn) in [(20f64, 0.5f64, 0f64), (30.0, 0.2, 180.0), (60.0, 0.7, 150.0), (75.0, 0.9, 20.0)] {
+    for (tilt, cosine, turn) in
+        [(20f64, 0.5f64, 0f64), (30.0, 0.2, 180.0), (60.0, 0.7, 150.0), (75.0, 0.9, 20.0)]
+    {
         let (tilt, turn) = (tilt.to_radians(), turn.to_radians());
         let sine = (1.0 - cosine * cosine).sqrt();
         let view = DVec3::new(sine * turn.cos(), sine * turn.sin(), cosine);
@@ -154,16 +162,18 @@ fn mirrors_walk_between_two_facets_as_in_f64() {
         let (sum, direction) = facets.mirrored(view);
         assert!((sum - 1.0).abs() < 1e-6, "{sum}");
         let body = format!(
-            "Relief relief = relief_of(vec2({}, 0.0), vec3({}, {}, {}));
-            for (uint i = 0; i < 4096; i++) {{
-                Reflection next = reflection(relief, vec3(1.0), 0.0, 1.0, vec3(0.0, 0.0, 1.0), vec3(1.0), 0.0, at, i);
+            "for (uint i = 0; i < 4096; i++) {{
+                Walk next = walk(vec2({}, 0.0), vec3({}, {}, {}), 0.0, vec3(0.0, 0.0, 1.0), at, i);
                 answer += vec4(next.direction, next.weight.r) / 4096.0;
             }}",
-            tilt.tan(), view.x, view.y, view.z
+            tilt.tan(),
+            view.x,
+            view.y,
+            view.z
         );
         let sets = set(&["rule=two facets"]);
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-        let shown = evaluate("", &body, "16x4", &sets);
+        let shown = evaluate(WALK, &body, "16x4", &sets);
         for k in 0..4 {
             let values: Vec<f64> = shown.pixels.iter().map(|p| p[k].into()).collect();
             let super::Estimate { mean, confidence } = super::Estimate::of(&values);

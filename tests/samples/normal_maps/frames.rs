@@ -2,7 +2,7 @@
 
 use common::app::Picture;
 
-use super::{NAME, chapter, evaluate};
+use super::{NAME, WALK, chapter, evaluate};
 use run::{Chapter, copy_of_shaders, replace_line, same_colors, shaders_with};
 
 /// The mapped normals of the plate whose halves mirror each other, through the middle of each pixel.
@@ -56,7 +56,7 @@ fn a_slope_follows_the_texture_around_the_triangle() {
         ("mat2x3(1, 0, 0, 0, 1, 0)", "mat2(-1, 0, 0, -1)", [-1.0, 1.0, 0.0]),
         ("mat2x3(1, 0, 0, 0, 1, 0)", "mat2(1, 0, 0, 1)", [1.0, -1.0, 0.0]),
         // A quarter turn.
-        ("mat2x3(1, 0, 0, 0, 1, 0)", "mat2(0, -1, -1, 0)", [1.0, 1.0, 0.0]),
+        ("mat2x3(1, 0, 0, 0, 1, 0)", "mat2(0, -1, -1, 0)", [1.0, -1.0, 0.0]),
         // Very small and very large.
         ("mat2x3(1e-18, 0, 0, 0, 1e-18, 0)", "mat2(1e-30, 0, 0, -1e-30)", [1.0, 1.0, 0.0]),
         ("mat2x3(1e18, 0, 0, 0, 1e18, 0)", "mat2(1e30, 0, 0, -1e30)", [1.0, 1.0, 0.0]),
@@ -108,10 +108,10 @@ fn nothing_is_negative_or_no_number() {
         uint bad = 0;
         for (uint i = 0; i < 256; i++) {
             float angle = 0.3926991 * float(i % 16) - 3.141592;
-            Relief relief = relief_of(slopes[at.x % 8] * vec2(cos(angle), sin(angle)), view);
+            vec2 slope = slopes[at.x % 8] * vec2(cos(angle), sin(angle));
             float c = cosines[i / 16 % 8];
             vec3 light = vec3(0.0, sqrt(max(1.0 - c * c, 0.0)), c);
-            Reflection next = reflection(relief, vec3(1.0), roughnesses[at.y], 1.0, light, vec3(1.0), 0.0, at, i);
+            Walk next = walk(slope, view, roughnesses[at.y], light, at, i);
             bool is_wrong = any(isnan(next.sun)) || any(isinf(next.sun)) || any(lessThan(next.sun, vec3(0.0)));
             is_wrong = is_wrong || any(isnan(next.weight)) || any(lessThan(next.weight, vec3(0.0)));
             is_wrong = is_wrong || abs(length(next.direction) - 1.0) > 1e-3;
@@ -119,9 +119,11 @@ fn nothing_is_negative_or_no_number() {
         }
         answer = vec4(bad);";
     for rule in super::energy::RULES {
-        for arithmetic in run::has_worst_arithmetic().then_some("worst").into_iter().chain(["driver"]) {
+        for arithmetic in
+            run::has_worst_arithmetic().then_some("worst").into_iter().chain(["driver"])
+        {
             let rule = format!("rule={rule}");
-            let shown = evaluate("", body, "64x4", &["--set", &rule, "--arithmetic", arithmetic]);
+            let shown = evaluate(WALK, body, "64x4", &["--set", &rule, "--arithmetic", arithmetic]);
             for (i, pixel) in shown.pixels.iter().enumerate() {
                 assert!(pixel[0] == 0.0, "{rule}, {arithmetic}, {i}: {} wrong", pixel[0]);
             }
@@ -135,10 +137,16 @@ fn a_map_without_strength_looks_as_in_45() {
     let other = Chapter::new("45_rough_metal").size("64x40").frames(2).sets(&sets).picture();
     for rule in ["flipped", "two facets"] {
         let sets = ["strength=0", &format!("rule={rule}")].map(str::to_owned);
-        let own = chapter("64x40").frames(2).sets(&["sun azimuth=150", "camera eye=3,4,7"]).sets(&sets);
+        let own =
+            chapter("64x40").frames(2).sets(&["sun azimuth=150", "camera eye=3,4,7"]).sets(&sets);
         same_colors("45 and 47 without a map", NAME, &other, &own.picture());
     }
-    let shaders = shaders_with("47_normal_maps/relief.glsl", "vec3(slope * inverse, inverse)", "vec3(0.01, 0.0, 1.0)");
-    let turned = chapter("64x40").frames(2).sets(&["sun azimuth=150", "camera eye=3,4,7", "strength=0"]);
+    let shaders = shaders_with(
+        "47_normal_maps/relief.glsl",
+        "vec3(slope * inverse, inverse)",
+        "vec3(0.01, 0.0, 1.0)",
+    );
+    let turned =
+        chapter("64x40").frames(2).sets(&["sun azimuth=150", "camera eye=3,4,7", "strength=0"]);
     assert!(turned.shaders(shaders.path()).picture() != other);
 }

@@ -71,7 +71,9 @@ fn every_statement_is_read() {
             "Pc is a property of physically based materials that is not read; Pr, Pm, map_Pr and map_Pm are",
         ),
         unread(16, "map_Ks is a map of highlights, which is not read; Ks and Ns are"),
-        "m.mtl:17: map_Bump: ../x.png leads out of the model's folder; the surface is smooth (1 in all)".to_owned(),
+        "m.mtl:17: map_Bump names \"../x.png\", outside the OBJ file's folder; copy it into the folder; the surface is \
+         smooth (1 in all)"
+            .to_owned(),
     ];
     assert_eq!(load_warned(mtl).1, lines);
     assert!(expected.has_cutout() && !Material::default().has_cutout());

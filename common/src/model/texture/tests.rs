@@ -99,7 +99,11 @@ fn heights_with_colours_are_a_normal_map_with_one_warning() {
     let map = png(&[[1, 2, 255, 255]], 1);
     let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
     for (mtl, rgba, end) in [
-        ("newmtl a\nbump t.png\n", Some([1, 2, 255, 255]), "it is taken as a normal map (1 in all)"),
+        (
+            "newmtl a\nbump t.png\n",
+            Some([1, 2, 255, 255]),
+            "it is taken as a normal map (1 in all)",
+        ),
         ("newmtl a\nbump u.png\n", None, "the surface is smooth (1 in all)"),
     ] {
         let files: [(&str, &[u8]); 3] =
