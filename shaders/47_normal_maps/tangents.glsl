@@ -21,12 +21,14 @@ vec2 texel_slope(vec3 texel, float scale) {
 // world, and `steps` those of its texture coordinates; v grows downwards.
 mat2x3 texture_axes(mat2x3 sides, mat2 steps, vec3 normal) {
     // Products of very small or very large numbers would vanish or overflow.
-    sides /= max(max(largest(abs(sides[0])), largest(abs(sides[1]))), 1e-37);
-    vec2 most = max(abs(steps[0]), abs(steps[1]));
-    steps /= max(max(most.x, most.y), 1e-37);
-    float area = determinant(steps);
-    vec3 right = sides * vec2(steps[1].y, -steps[0].y) * sign(area);
-    vec3 up = sides * vec2(steps[1].x, -steps[0].x) * sign(area);
+    float size = max(max(largest(abs(sides[0])), largest(abs(sides[1]))), 1e-37);
+    vec3 first = sides[0] / size, second = sides[1] / size;
+    vec2 widest = max(abs(steps[0]), abs(steps[1]));
+    vec2 a = steps[0] / max(max(widest.x, widest.y), 1e-37);
+    vec2 b = steps[1] / max(max(widest.x, widest.y), 1e-37);
+    float turn = sign(a.x * b.y - a.y * b.x);
+    vec3 right = turn * (b.y * first - a.y * second);
+    vec3 up = turn * (b.x * first - a.x * second);
     right -= dot(right, normal) * normal;
     float square = dot(right, right);
     if (!(square > 1e-20)) {
@@ -41,6 +43,6 @@ mat2x3 texture_axes(mat2x3 sides, mat2 steps, vec3 normal) {
 
 // The slope of a texel, in the frame of the normal to shade with. Seen from behind, bumps are dents.
 vec2 mapped_slope(vec2 slope, mat2x3 axes, mat3 frame, bool is_behind) {
-    vec3 aside = axes * (is_behind ? -slope : slope);
-    return (aside * frame).xy;
+    vec3 aside = slope.x * axes[0] + slope.y * axes[1];
+    return (aside * frame).xy * (is_behind ? -1.0 : 1.0);
 }
