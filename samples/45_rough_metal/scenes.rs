@@ -95,14 +95,15 @@ impl Staged {
     }
 }
 
-fn microfacets(name: &str, color: Vec3, roughness: f32, metallic: f32) -> Material {
+/// A material of microfacets.
+pub fn microfacets(name: &str, color: Vec3, roughness: f32, metallic: f32) -> Material {
     let microfacet =
         Microfacet { color, roughness, metallic, roughness_texture: None, metallic_texture: None };
     Material { name: name.to_owned(), microfacet: Some(microfacet), ..Material::default() }
 }
 
 /// Five spheres of radius 1 side by side.
-fn spheres(metallic: f32) -> Scene {
+pub fn spheres(metallic: f32) -> Scene {
     let materials = ROUGHNESSES.map(|roughness| {
         microfacets(&format!("roughness {roughness}"), Vec3::ONE, roughness, metallic)
     });

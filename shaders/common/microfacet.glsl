@@ -4,6 +4,7 @@
 //
 // Directions are in the surface's own frame, whose z is the normal: `view` points to the eye, `light` to the light,
 // and a facet mirrors one into the other if its own normal is half way between them.
+#include "frame.glsl"
 #include "surface.glsl"
 #include "albedo.glsl"
 
@@ -17,16 +18,6 @@ const float GRAZING = 1e-5;
 
 // The reflectance of an insulator head-on (glTF 2.0, section 3.9.2).
 const vec3 INSULATOR = vec3(0.04);
-
-// The frame of a normal, which is its third axis (Duff et al., JCGT 6:1, 2017).
-mat3 frame_of(vec3 normal) {
-    float side = normal.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (side + normal.z);
-    float b = normal.x * normal.y * a;
-    return mat3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x,
-        b, side + normal.y * normal.y * a, -normal.y,
-        normal);
-}
 
 // ANCHOR: distribution
 // GGX: how densely the facets' normals lie around a direction (Trowbridge and Reitz 1975). `alpha` is the tangent

@@ -10,7 +10,9 @@ const validator = require("gltf-validator");
 const file = process.argv[2];
 const read = (name) => new Uint8Array(fs.readFileSync(name));
 const beside = async (uri) => read(path.join(path.dirname(file), uri));
-validator.validateBytes(read(file), { uri: file, externalResourceFunction: beside }).then(({ issues }) => {
+// Programs may disagree about tangents on curved meshes. The normal map is on flat squares, where all get the same.
+const ignoredIssues = ["MESH_PRIMITIVE_GENERATED_TANGENT_SPACE"];
+validator.validateBytes(read(file), { uri: file, externalResourceFunction: beside, ignoredIssues }).then(({ issues }) => {
   const { numErrors, numWarnings, messages } = issues;
   console.log(`${file}: ${numErrors} errors, ${numWarnings} warnings`);
   messages.filter(({ severity }) => severity < 2).forEach((message) => console.log(message));

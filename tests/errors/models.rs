@@ -38,9 +38,11 @@ fn a_gltf_file_is_shown_or_refused() {
     let assets = run::root().join("samples/assets");
     let file = |name: &str| fs::read(assets.join(name)).unwrap();
     let (json, buffer, picture) = (file("chess.gltf"), file("chess.bin"), file("fretwork.png"));
+    let normals = file("bevelled.png");
     let whole: [(&str, &[u8]); 3] =
         [("model.obj", &[]), ("chess.gltf", &json), ("chess.bin", &buffer)];
-    let with_picture = [&whole[..], &[("fretwork.png", &picture)]].concat();
+    let with_picture =
+        [&whole[..], &[("fretwork.png", &picture), ("bevelled.png", &normals)]].concat();
     let run = |files: &[(&str, &[u8])]| {
         let folder = folder(files);
         let mut command = sample();
@@ -49,10 +51,11 @@ fn a_gltf_file_is_shown_or_refused() {
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
     let (code, said) = run(&with_picture);
-    assert_eq!((code, said.lines().count()), (Some(0), 3), "{said}");
+    assert_eq!((code, said.lines().count()), (Some(0), 4), "{said}");
     for line in [
         "has lights; this chapter has its own; 25_scene_effects shows them (2 in all)",
         "has a metalness and a roughness; this chapter shows a colour, a highlight or a mirror instead; 45_rough_metal shows them",
+        "material \"board_light\" has a normal map; this chapter shows it smooth; 47_normal_maps shows it (2 in all)",
         "material \"fretwork\" has holes; this chapter shows it whole; 03_any_hit shows them (1 in all)",
     ] {
         assert!(said.contains(line), "{said}");
@@ -60,6 +63,8 @@ fn a_gltf_file_is_shown_or_refused() {
     let (code, said) = run(&whole);
     let gone = "image 0: its URI names \"fretwork.png\", which is not there; the plain colour stands for it";
     assert!(code == Some(0) && said.contains(gone), "{said}");
+    let gone = "image 1: its URI names \"bevelled.png\", which is not there; the surface is smooth";
+    assert!(said.contains(gone), "{said}");
     let (code, said) = run(&[whole[1]]);
     let gone = "error: chess.gltf: nothing to show: a part of mesh \"board\" is left out: ";
     assert!(code == Some(1) && said.contains(gone) && said.lines().count() == 1, "{said}");
@@ -316,7 +321,7 @@ fn files_of_other_exporters() {
             BLENDER,
             BLENDER_MTL,
             &[
-                "model.mtl:14: map_Bump is a map of bumps",
+                "model.mtl:14: map_Bump names \"bump.png\", which is not there; the surface is smooth",
                 "model.obj: material \"Material.001\" has a metalness and a roughness",
             ][..],
         ),

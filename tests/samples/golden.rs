@@ -46,6 +46,7 @@ golden! {
     lights,
     motion_blur,
     multi_closest_hit,
+    normal_maps,
     opacity_micromaps,
     own_tree,
     path_tracing,

@@ -28,6 +28,7 @@ mod lights;
 mod long_renders;
 mod motion_blur;
 mod multi_closest_hit;
+mod normal_maps;
 mod opacity_micromaps;
 mod own_tree;
 mod path_tracing;

@@ -35,4 +35,5 @@ fn the_order_of_settings_does_not_matter() {
     held("27_glass", ["scene=drink", "sky=day", "camera eye=1,2,3"]);
     held("29_emitters", ["scene=ball", "sky=day", "camera eye=1,2,3"]);
     held("45_rough_metal", ["scene=furnace", "sky=black", "camera eye=1,2,3"]);
+    held("47_normal_maps", ["scene=plate", "sky=black", "camera eye=1,2,3"]);
 }

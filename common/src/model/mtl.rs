@@ -38,6 +38,8 @@ pub(crate) struct MaterialLibrary {
 #[derive(Default)]
 struct Given {
     opacity: bool,
+    /// A normal map, which takes precedence over a map of heights.
+    normals: bool,
     /// It has been defined before.
     again: bool,
 }
@@ -215,12 +217,22 @@ impl MaterialLibrary {
                 }
             }
             _ => {
-                let named = after_options(rest, &mut |what: &str| value.pass_over(what));
                 let role = match keyword {
                     "map_Kd" => Role::Color,
                     "map_d" => Role::Opacity,
-                    _ => Role::Numbers,
+                    "map_Pr" | "map_Pm" => Role::Numbers,
+                    "bump" | "map_Bump" => Role::Heights,
+                    _ => Role::Normals,
                 };
+                if role == Role::Heights && given.normals {
+                    return Ok(());
+                }
+                let mut bumps = 1.0;
+                let named =
+                    after_options(rest, &mut |option: &str, argument: &str| match (option, role) {
+                        ("-bm", Role::Heights | Role::Normals) => bumps = value.bumps(argument),
+                        _ => value.pass_over(&format!("the option {option}")),
+                    });
                 let image = match folder.find(keyword, named, Some(file)) {
                     Ok(image) => image,
                     Err(error) => {
@@ -235,7 +247,12 @@ impl MaterialLibrary {
                     "map_Kd" => &mut material.base_texture,
                     "map_d" => &mut material.opacity_texture,
                     "map_Pr" => &mut material.microfacet.get_or_insert_default().roughness_texture,
-                    _ => &mut material.microfacet.get_or_insert_default().metallic_texture,
+                    "map_Pm" => &mut material.microfacet.get_or_insert_default().metallic_texture,
+                    _ => {
+                        material.normal_scale = bumps;
+                        given.normals |= role == Role::Normals;
+                        &mut material.normal_texture
+                    }
                 };
                 *slot = Some(self.textures.add(image, role, statement.place()));
                 places.texture = Some(format!("{}: {keyword}", statement.place()));

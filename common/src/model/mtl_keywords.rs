@@ -1,18 +1,35 @@
 //! The keywords of MTL, and of its extensions by other programs.
 
 /// The keywords that are read.
-pub(crate) const READ: [&str; 16] = [
-    "newmtl", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d", "Pr",
-    "Pm", "map_Pr", "map_Pm",
+pub(crate) const READ: [&str; 22] = [
+    "newmtl",
+    "Kd",
+    "Ks",
+    "Ke",
+    "Tf",
+    "Ns",
+    "Ni",
+    "d",
+    "Tr",
+    "illum",
+    "map_Kd",
+    "map_d",
+    "Pr",
+    "Pm",
+    "map_Pr",
+    "map_Pm",
+    "norm",
+    "map_norm",
+    "map_normal",
+    "map_Kn",
+    "bump",
+    "map_Bump",
 ];
 
 /// Keywords of what is not shown, by kind: its names, what is said of one. A file of many materials has
 /// each many times: one warning for a kind is enough.
 const LEFT_OUT: [(&str, &str); 7] = [
-    (
-        "bump map_bump norm map_norm map_normal map_Kn disp map_disp",
-        "is a map of bumps, which are not shown",
-    ),
+    ("disp map_disp", "is a map of displacement, which is not shown; map_Bump and norm are"),
     ("map_Ks map_Ns", "is a map of highlights, which is not read; Ks and Ns are"),
     ("map_Ke", "is a map of emission, which is not read; Ke is"),
     (

@@ -10,6 +10,9 @@ use super::warnings::{Kind, Warnings};
 /// samples must not overflow.
 pub(crate) const BRIGHTEST: f32 = 1e6;
 
+/// The largest size of bumps: the steepest slope of an image is finite after that.
+const BUMPIEST: f32 = 1e6;
+
 /// The words after a keyword. A wrong number gets a warning, and the nearest that can be shown takes its place.
 pub(crate) struct Value<'a> {
     pub keyword: &'static str,
@@ -83,6 +86,15 @@ impl Value<'_> {
         Some(taken)
     }
 
+    /// The size of bumps after the option `-bm`; negative ones make dents of them.
+    pub fn bumps(&mut self, argument: &str) -> f32 {
+        let number = argument.parse::<f32>().ok().filter(|number| number.abs() <= BUMPIEST);
+        number.unwrap_or_else(|| {
+            self.pass_over(&format!("the option -bm {}", quoted(argument)));
+            1.0
+        })
+    }
+
     /// A single number from 0 to `most`; `below` is taken for a negative one.
     pub fn number(&mut self, below: f32, most: f32) -> Option<f32> {
         let keyword = self.keyword;
@@ -147,8 +159,8 @@ fn shown(color: Vec3) -> String {
     color.to_array().map(shown).join(" ")
 }
 
-/// The name of a texture, after the options.
-pub(crate) fn after_options<'a>(rest: &'a str, pass_over: &mut impl FnMut(&str)) -> &'a str {
+/// The name of a texture, after the options. `found` receives each option and its first argument.
+pub(crate) fn after_options<'a>(rest: &'a str, found: &mut impl FnMut(&str, &str)) -> &'a str {
     let mut rest = rest;
     while let Some(option) = rest.split_whitespace().next().filter(|word| word.starts_with('-')) {
         // The minimum number of arguments of an option; of offset, scale and turbulence, only the first is required.
@@ -160,8 +172,8 @@ pub(crate) fn after_options<'a>(rest: &'a str, pass_over: &mut impl FnMut(&str))
             // Not an option, but a name that begins like one.
             _ => break,
         };
-        pass_over(&format!("the option {option}"));
         rest = rest[option.len()..].trim_start();
+        found(option, rest.split_whitespace().next().unwrap_or_default());
         for taken in 0..most {
             let word = rest.split_whitespace().next().unwrap_or_default();
             if taken >= least && word.parse::<f32>().is_err() {

@@ -1,5 +1,6 @@
 //! A texture: an image in its form for the device, and the files textures are read from.
 
+mod heights;
 mod jpeg;
 mod kind;
 mod png;
@@ -48,13 +49,21 @@ impl Texture {
         let rgba = image.into_raw();
         Ok(Self { name, width, height, rgba, srgb: true, sampling: Sampling::default() })
     }
+
+    /// Reads a normal map of the project's own, a PNG file.
+    ///
+    /// # Errors
+    /// If it is missing or not such a file.
+    pub fn of_normals(path: &Path, name: String) -> Result<Self> {
+        Ok(Self { srgb: false, ..Self::open(path, name)? })
+    }
 }
 
 /// A remark about a texture that is shown, and its kind.
 pub(crate) type Remark = (warnings::Kind, &'static str);
 
 /// The use of a texture in a material.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Role {
     /// RGB.
     Color,
@@ -62,6 +71,10 @@ pub(crate) enum Role {
     Opacity,
     /// Numbers in RGB, which are linear.
     Numbers,
+    /// Normals in RGB, likewise.
+    Normals,
+    /// Heights in grey, of which normals are made.
+    Heights,
 }
 
 /// The texture files named by materials.
@@ -71,8 +84,8 @@ pub(crate) enum Role {
 #[derive(Default)]
 pub(crate) struct TextureFiles {
     files: Vec<TextureFile>,
-    /// By file, and whether it holds numbers.
-    indices: HashMap<(PathBuf, bool), usize>,
+    /// By file and use; colour and opacity are one.
+    indices: HashMap<(PathBuf, Role), usize>,
 }
 
 struct TextureFile {
@@ -81,13 +94,18 @@ struct TextureFile {
     place: String,
     color: bool,
     opacity: bool,
-    numbers: bool,
+    /// The use, which is [`Role::Color`] for opacity also.
+    role: Role,
 }
 
 impl Role {
     /// The kind of warning if there is no such texture.
     pub fn missing(self) -> warnings::Kind {
-        if self == Self::Numbers { warnings::Kind::Numbers } else { warnings::Kind::Texture }
+        match self {
+            Self::Color | Self::Opacity => warnings::Kind::Texture,
+            Self::Numbers => warnings::Kind::Numbers,
+            Self::Normals | Self::Heights => warnings::Kind::NormalMap,
+        }
     }
 }
 
@@ -95,16 +113,13 @@ impl TextureFiles {
     /// Records a file and returns the position that its texture will have.
     pub fn add(&mut self, named: Named, role: Role, place: String) -> usize {
         let files = &mut self.files;
-        let numbers = role == Role::Numbers;
-        let index = *self.indices.entry((named.path.clone(), numbers)).or_insert_with(|| {
-            files.push(TextureFile { named, place, color: false, opacity: false, numbers });
+        let kept = if role == Role::Opacity { Role::Color } else { role };
+        let index = *self.indices.entry((named.path.clone(), kept)).or_insert_with(|| {
+            files.push(TextureFile { named, place, color: false, opacity: false, role: kept });
             files.len() - 1
         });
-        match role {
-            Role::Color => files[index].color = true,
-            Role::Opacity => files[index].opacity = true,
-            Role::Numbers => {}
-        }
+        files[index].color |= role == Role::Color;
+        files[index].opacity |= role == Role::Opacity;
         index
     }
 
@@ -119,7 +134,7 @@ impl TextureFiles {
         let mut textures = Vec::new();
         let decode = |file: TextureFile| {
             let (place, shown) = (file.place.clone(), file.named.shown.clone());
-            let role = if file.numbers { Role::Numbers } else { Role::Color };
+            let role = file.role;
             match file.decode(&mut left, limits) {
                 Ok((texture, remarks)) => {
                     for (kind, what) in remarks {
@@ -162,7 +177,7 @@ impl TextureFile {
         let mut head = Vec::new();
         file.by_ref().take(kind::HEAD).read_to_end(&mut head).map_err(unread)?;
         file.rewind().map_err(unread)?;
-        let (image, remarks) = match Kind::of(&head)? {
+        let (image, mut remarks) = match Kind::of(&head)? {
             Kind::Png => (png::decode(file, &self, left, limits)?, Vec::new()),
             Kind::Jpeg => jpeg::decode(file, &self, left, limits)?,
         };
@@ -173,6 +188,9 @@ impl TextureFile {
             rgba.chunks_exact_mut(4).zip(luminance.iter().flat_map(|luma| luma.as_raw()))
         {
             texel[3] = *luminance;
+        }
+        if self.role == Role::Heights && !heights::to_normals(&mut rgba, width as usize) {
+            remarks.push((warnings::Kind::Colored, "has colours, and heights are grey"));
         }
         let (name, srgb, sampling) = (self.named.name, self.color, Sampling::default());
         Ok((Texture { name, width, height, rgba, srgb, sampling }, remarks))
@@ -195,7 +213,9 @@ impl TextureFile {
         // The file's own data, perhaps 16 bits per channel, coexists with the 8 bits made from it.
         let decoded = u64::from(color.bytes_per_pixel()) * texels;
         let converted = if color == ColorType::Rgba8 { 0 } else { 4 * texels };
-        let luminance = if self.wants_luminance(color) { texels } else { 0 };
+        // One byte of each texel: its luminance, or its height.
+        let is_copied = self.wants_luminance(color) || self.role == Role::Heights;
+        let luminance = if is_copied { texels } else { 0 };
         let need = decoder + decoded + converted + luminance;
         ensure!(
             need <= *left,
@@ -222,7 +242,7 @@ pub(crate) fn decode_file(
 }
 
 fn of_color(named: Named) -> TextureFile {
-    TextureFile { named, place: String::new(), color: true, opacity: false, numbers: false }
+    TextureFile { named, place: String::new(), color: true, opacity: false, role: Role::Color }
 }
 
 /// Decodes an image within another file, as [`decode_file`] does.

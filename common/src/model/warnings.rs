@@ -17,6 +17,10 @@ pub(crate) enum Kind {
     Texture,
     /// A texture of numbers that is missing, outside the model's folder, or not a picture.
     Numbers,
+    /// A normal map that is missing, outside the model's folder, or not a picture.
+    NormalMap,
+    /// A map of heights that has colours.
+    Colored,
     /// A texture on faces without texture coordinates.
     Untextured,
     /// A file of the name beside the model, but not where the name leads.
@@ -64,6 +68,8 @@ impl Kind {
             Self::Material => Some("a grey stands for it"),
             Self::Texture => Some("the plain colour stands for it"),
             Self::Numbers => Some("the material's number alone counts"),
+            Self::NormalMap => Some("the surface is smooth"),
+            Self::Colored => Some("it is taken as a normal map"),
             Self::Elsewhere => Some("the file of that name beside the model is taken"),
             Self::Cut => Some("what there is of it is shown"),
             Self::Turned => Some("it is turned, as viewers of photographs do"),

@@ -19,11 +19,19 @@ pub enum Look {
     Glass,
     /// It has a metalness and a roughness.
     Microfacet,
+    /// A texture turns its normals.
+    NormalMap,
 }
 
 impl Look {
-    const ALL: [Self; 5] =
-        [Self::Mirror, Self::Holes, Self::Transparency, Self::Glass, Self::Microfacet];
+    const ALL: [Self; 6] = [
+        Self::Mirror,
+        Self::Holes,
+        Self::Transparency,
+        Self::Glass,
+        Self::Microfacet,
+        Self::NormalMap,
+    ];
 
     /// True if a material needs this look. Glass reflects and may have an opacity, but counts as glass alone.
     fn is_of(self, material: &Material) -> bool {
@@ -39,6 +47,7 @@ impl Look {
             Self::Microfacet => material.microfacet.as_ref().is_some_and(|microfacet| {
                 !material.is_glass() && (microfacet.metallic > 0.0 || microfacet.roughness < 1.0)
             }),
+            Self::NormalMap => material.normal_texture.is_some(),
         }
     }
 
@@ -56,6 +65,9 @@ impl Look {
             Self::Microfacet => {
                 "has a metalness and a roughness; this chapter shows a colour, a highlight or a mirror instead; 45_rough_metal shows them"
             }
+            Self::NormalMap => {
+                "has a normal map; this chapter shows it smooth; 47_normal_maps shows it"
+            }
         }
     }
 }
@@ -67,9 +79,7 @@ impl Scene {
         let left_out = self.left_out(shown).into_iter().map(|what| format!("{file}: {what}"));
         let left_out: Vec<_> = left_out.collect();
         self.model.warnings.extend(left_out);
-        if !shown.contains(&Look::Microfacet) {
-            self.model.remove_microfacets();
-        }
+        self.model.remove_all_but(shown);
     }
 
     /// For each look that is needed and not shown, the first such material, and the number of them.
@@ -92,10 +102,18 @@ impl Scene {
 }
 
 impl Model {
-    /// Removes metalness and roughness. A texture that nothing else reads becomes a single texel: it keeps its number,
-    /// because the others keep theirs.
-    fn remove_microfacets(&mut self) {
-        self.materials.iter_mut().for_each(|material| material.microfacet = None);
+    /// Removes metalness, roughness and normal maps that are not shown. A texture that nothing else reads becomes a
+    /// single texel: it keeps its number, because the others keep theirs.
+    fn remove_all_but(&mut self, shown: &[Look]) {
+        let [microfacets, normals] =
+            [Look::Microfacet, Look::NormalMap].map(|l| shown.contains(&l));
+        if microfacets && normals {
+            return;
+        }
+        for material in &mut self.materials {
+            material.microfacet = material.microfacet.take().filter(|_| microfacets);
+            material.normal_texture = material.normal_texture.filter(|_| normals);
+        }
         let materials = self.materials.iter_mut();
         let read: BTreeSet<usize> =
             materials.flat_map(|material| material.textures().filter_map(|t| *t)).collect();
@@ -188,6 +206,18 @@ mod tests {
         shown.show_only(&[Look::Microfacet], "a.obj");
         assert!(shown.model.warnings.is_empty() && shown.model.textures == scene.model.textures);
         assert_eq!(shown.model.materials[0].microfacet, Some(rough));
+        let mut bumpy = scene.clone();
+        bumpy.model.materials[1].normal_texture = Some(0);
+        let mut smooth = bumpy.clone();
+        bumpy.show_only(&[Look::Microfacet, Look::NormalMap], "a.obj");
+        assert!(bumpy.model.warnings.is_empty() && bumpy.model.textures == scene.model.textures);
+        smooth.model.materials[0].microfacet = None;
+        smooth.show_only(&[Look::Microfacet], "a.obj");
+        let line = "a.obj: material \"matte\" has a normal map; this chapter shows it smooth; 47_normal_maps shows it \
+                    (1 in all)";
+        assert_eq!(smooth.model.warnings, [line]);
+        assert_eq!(smooth.model.materials[1].normal_texture, None);
+        assert_eq!(smooth.model.textures[0].rgba.len(), 4);
         let mut without = scene.clone();
         without.show_only(&[], "a.obj");
         let line = "a.obj: material \"chrome\" has a metalness and a roughness; this chapter shows a colour, a \

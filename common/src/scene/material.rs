@@ -29,6 +29,11 @@ pub struct Material {
     pub opacity_texture: Option<usize>,
     /// True if that alpha is how much of the surface there is; else it says where the surface has holes.
     pub blended: bool,
+    /// The texture of normals in the frame of the texture coordinates, by position in the model (`norm`, `map_Bump`):
+    /// linear, x to the right of the image, y up, z out of the surface.
+    pub normal_texture: Option<usize>,
+    /// Multiplies x and y of these normals (`-bm`).
+    pub normal_scale: f32,
     /// Its metalness and roughness, if the file has them (`Pm`, `Pr`).
     pub microfacet: Option<Microfacet>,
 }
@@ -67,7 +72,9 @@ impl Material {
         let microfacet = self.microfacet.iter_mut().flat_map(|microfacet| {
             [&mut microfacet.roughness_texture, &mut microfacet.metallic_texture]
         });
-        [&mut self.base_texture, &mut self.opacity_texture].into_iter().chain(microfacet)
+        [&mut self.base_texture, &mut self.opacity_texture, &mut self.normal_texture]
+            .into_iter()
+            .chain(microfacet)
     }
 
     /// True if rays may pass through part of the surface.
@@ -102,6 +109,8 @@ impl Default for Material {
             base_texture: None,
             opacity_texture: None,
             blended: false,
+            normal_texture: None,
+            normal_scale: 1.0,
             microfacet: None,
         }
     }

@@ -30,8 +30,9 @@ pub struct Files {
     pub buffer: Vec<u8>,
 }
 
-/// The files, of which the first names the second and the picture.
-pub fn write(objects: &[Object], buffer: &str, picture: &str) -> Files {
+/// The files, of which the first names the second and the pictures: that of the screen, and the normal map of the
+/// squares.
+pub fn write(objects: &[Object], buffer: &str, pictures: [&str; 2]) -> Files {
     let mut writer = Writer::default();
     let object = |name: &str| {
         objects.iter().find(|object| object.name == name).expect("the chess set has each of these")
@@ -113,6 +114,10 @@ pub fn write(objects: &[Object], buffer: &str, picture: &str) -> Files {
             "metallicFactor": metallic,
             "roughnessFactor": roughness,
         });
+        if name.starts_with("board") {
+            let normals = json!({"index": 1});
+            return json!({"name": name, "pbrMetallicRoughness": surface, "normalTexture": normals});
+        }
         if name != "fretwork" {
             return json!({"name": name, "pbrMetallicRoughness": surface});
         }
@@ -131,9 +136,9 @@ pub fn write(objects: &[Object], buffer: &str, picture: &str) -> Files {
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,
-        "textures": [{"source": 0, "sampler": 0}],
+        "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 0}],
         "samplers": [{"wrapS": 10497, "wrapT": 10497}],
-        "images": [{"uri": picture}],
+        "images": pictures.map(|picture| json!({"uri": picture})),
         "cameras": [{"type": "perspective", "perspective": {"yfov": digits(37f64.to_radians()), "znear": 0.1}}],
         "buffers": [{"uri": buffer, "byteLength": writer.bytes.len()}],
         "bufferViews": writer.views,

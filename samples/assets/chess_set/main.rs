@@ -1,11 +1,13 @@
 //! Makes the one world of this book: writes `chess.obj`, `chess.mtl` and `fretwork.png` next to
-//! this directory, and the same as glTF, `chess.gltf` and `chess.bin`, the same bytes on every run.
+//! this directory, and the same as glTF, `chess.gltf` and `chess.bin`, with the normal maps `hammered.png` and
+//! `bevelled.png`, the same bytes on every run.
 //!
 //! `chess_set --check` writes nothing and fails if a file differs from what it would write.
 
 mod board;
 mod cross;
 mod cut;
+mod dents;
 mod fretwork;
 mod gltf;
 mod knight;
@@ -55,19 +57,26 @@ fn make(check: bool) -> Result<()> {
     for object in &objects {
         println!("{:<13} {:>5} triangles", object.name, object.mesh.triangles.len());
     }
-    let picture = fretwork::image();
-    let mut png = Cursor::new(Vec::new());
-    picture.write_to(&mut png, ImageFormat::Png)?;
+    let pictures = [
+        ("fretwork.png", fretwork::image()),
+        ("hammered.png", dents::hammered()),
+        ("bevelled.png", dents::bevelled()),
+    ];
 
     let directory = Path::new(DIRECTORY);
-    let gltf::Files { json, buffer } = gltf::write(&objects, "chess.bin", "fretwork.png");
-    let files = [
+    let gltf::Files { json, buffer } =
+        gltf::write(&objects, "chess.bin", ["fretwork.png", "bevelled.png"]);
+    let mut files = vec![
         ("chess.obj", obj::write(&objects, "chess.mtl").into_bytes()),
         ("chess.mtl", obj::materials("fretwork.png").into_bytes()),
-        ("fretwork.png", png.into_inner()),
         ("chess.gltf", json.into_bytes()),
         ("chess.bin", buffer),
     ];
+    for (name, picture) in &pictures {
+        let mut png = Cursor::new(Vec::new());
+        picture.write_to(&mut png, ImageFormat::Png)?;
+        files.push((name, png.into_inner()));
+    }
     for (name, bytes) in files {
         let path = directory.join(name);
         if !check {
@@ -77,10 +86,11 @@ fn make(check: bool) -> Result<()> {
         }
         let found = std::fs::read(&path).with_context(|| format!("reading {}", path.display()))?;
         // A newer encoder may pack the same picture into other bytes, which does not count as a difference.
-        let same = if name.ends_with(".png") {
-            image::load_from_memory(&found).is_ok_and(|found| found.to_rgba8() == picture)
-        } else {
-            found == bytes
+        let same = match pictures.iter().find(|(of, _)| *of == name) {
+            Some((_, picture)) => {
+                image::load_from_memory(&found).is_ok_and(|found| found.to_rgba8() == *picture)
+            }
+            None => found == bytes,
         };
         ensure!(same, "{} is out of date: run chess_set", path.display());
     }

@@ -25,6 +25,8 @@ pub(super) enum Use {
     Cutout(f32),
     /// Its red, green and blue, which are linear.
     Numbers,
+    /// Its red, green and blue, which are a normal.
+    Normals,
 }
 
 /// A texture of the model.
@@ -79,19 +81,23 @@ impl<'a> Images<'a> {
         let threshold = match for_what {
             Use::Color => 0.0,
             Use::Cutout(threshold) => threshold,
-            Use::Numbers => f32::INFINITY,
+            Use::Numbers | Use::Normals => f32::INFINITY,
         };
         let key = (source.source.value(), sampling, threshold.to_bits());
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        let instead = if for_what == Use::Numbers { FACTORS } else { PLAIN };
+        let instead = match for_what {
+            Use::Color | Use::Cutout(_) => PLAIN,
+            Use::Numbers => FACTORS,
+            Use::Normals => SMOOTH,
+        };
         let loaded = self.read(source.source, instead, features).map(|mut texture| {
             if let Use::Cutout(threshold) = for_what {
                 cut_at_half(&mut texture.rgba, threshold);
             }
             let has_alpha = texture.rgba.chunks_exact(4).any(|texel| texel[3] < 255);
-            let srgb = for_what != Use::Numbers;
+            let srgb = !matches!(for_what, Use::Numbers | Use::Normals);
             self.textures.push(Texture { sampling, srgb, ..texture });
             Loaded { index: self.textures.len() - 1, has_alpha }
         });
@@ -118,7 +124,7 @@ impl<'a> Images<'a> {
     fn read(
         &mut self,
         index: Index<Image>,
-        instead: &str,
+        instead: &'static str,
         features: &mut Features,
     ) -> Option<Texture> {
         let number = index.value();
@@ -132,7 +138,7 @@ impl<'a> Images<'a> {
             Err(error) => {
                 let place =
                     if number == NONE { "an image".to_owned() } else { format!("image {number}") };
-                features.note("image", 1, || format!("{place}: {error}; {instead}"));
+                features.note(instead, 1, || format!("{place}: {error}; {instead}"));
                 None
             }
         }
@@ -184,6 +190,9 @@ const NONE: usize = u32::MAX as usize;
 const PLAIN: &str = "the plain colour stands for it";
 /// In place of a texture of metalness and roughness.
 const FACTORS: &str = "the factors of metalness and roughness alone count";
+
+/// In place of a normal map.
+const SMOOTH: &str = "the surface is smooth";
 
 /// The sampling of a texture. Values that glTF does not have count as its default.
 fn sampling_of(sampler: &Sampler) -> Sampling {

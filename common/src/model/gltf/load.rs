@@ -236,6 +236,13 @@ impl<'a> Loading<'a> {
                 return None;
             }
         };
+        let tangents = self.file.attribute(primitive, Semantic::Tangents);
+        if tangents.is_some() && look.material.normal_texture.is_some() {
+            features.note("tangents", 1, || {
+                let mesh = quoted(name);
+                format!("mesh {mesh} has tangents, which are not used; they follow from the texture coordinates")
+            });
+        }
         let tint = self.tint(name, primitive, features);
         let count = self.materials.len();
         let number = number.filter(|&number| number < self.looks.len());

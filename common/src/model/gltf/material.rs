@@ -155,11 +155,7 @@ impl Look {
             look.coordinates =
                 source.emissive_texture.as_ref().map_or(look.coordinates, Coordinates::of_texture);
         }
-        if source.normal_texture.is_some() {
-            features.note("normal", 1, || {
-                format!("{} has a normal map; it is left out, the surface is smooth", place())
-            });
-        }
+        set_normals(&mut material, &mut look.coordinates, source, images, features, &place());
         if source.extensions.as_ref().is_some_and(|all| all.unlit.is_some()) {
             features.note("unlit", 1, || format!("{} is unlit; it is shown in light", place()));
         }
@@ -244,6 +240,30 @@ fn set_alpha(
             }
         }
     }
+}
+
+/// The normal map; without another texture, its coordinates are the material's.
+fn set_normals(
+    material: &mut Material,
+    coordinates: &mut Coordinates,
+    source: &Source,
+    images: &mut Images,
+    features: &mut Features,
+    place: &str,
+) {
+    let Some(map) = &source.normal_texture else { return };
+    let texture = images.texture(map.index, Use::Normals, features);
+    let Some(texture) = texture else { return };
+    let set = map.tex_coord;
+    if !coordinates.is_read {
+        *coordinates = Coordinates { set, is_read: true, ..Coordinates::default() };
+    } else if coordinates.set != set {
+        features.note("normal", 1, || {
+            format!("{place} has a normal map with texture coordinates of its own; those of its colour count")
+        });
+    }
+    material.normal_texture = Some(texture.index);
+    material.normal_scale = if map.scale.is_finite() { map.scale } else { 1.0 };
 }
 
 /// Glass: a sheet by `KHR_materials_transmission`, a body if it has a volume.

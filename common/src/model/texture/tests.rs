@@ -78,6 +78,60 @@ fn a_file_of_numbers_is_linear_and_one_of_colours_too_is_two_textures() {
 }
 
 #[test]
+fn a_normal_map_is_linear_and_comes_before_heights() {
+    let map = png(&[[1, 2, 3, 255]], 1);
+    let heights = png(&[[9, 9, 9, 255]], 1);
+    let files: [(&str, &[u8]); 2] = [("n.png", &map), ("h.png", &heights)];
+    let mtl = "newmtl a\nmap_Bump -bm 3 h.png\nnorm -bm 0.5 n.png\nbump h.png\nmap_Kd n.png\n";
+    let (materials, textures) = load(mtl, &files).unwrap();
+    let material = &materials[0];
+    assert_eq!(material.normal_scale, 0.5);
+    let normals = &textures[material.normal_texture.unwrap()];
+    assert_eq!((normals.srgb, &normals.rgba[..]), (false, &[1, 2, 3, 255][..]));
+    assert!(textures[material.base_texture.unwrap()].srgb);
+    let (materials, textures) = load("newmtl a\nmap_Bump -bm 3 h.png\n", &files).unwrap();
+    assert_eq!(materials[0].normal_scale, 3.0);
+    assert_eq!(textures[materials[0].normal_texture.unwrap()].rgba, [128, 128, 255, 255]);
+}
+
+#[test]
+fn heights_with_colours_are_a_normal_map_with_one_warning() {
+    let map = png(&[[1, 2, 255, 255]], 1);
+    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    for (mtl, rgba, end) in [
+        (
+            "newmtl a\nbump t.png\n",
+            Some([1, 2, 255, 255]),
+            "it is taken as a normal map (1 in all)",
+        ),
+        ("newmtl a\nbump u.png\n", None, "the surface is smooth (1 in all)"),
+    ] {
+        let files: [(&str, &[u8]); 3] =
+            [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", &map)];
+        let model = load_files(&files, &Limits::DEFAULT).unwrap();
+        let material = &model.materials[model.meshes[0].material];
+        let texels = material.normal_texture.map(|texture| &model.textures[texture].rgba[..]);
+        assert_eq!(texels, rgba.as_ref().map(|rgba| &rgba[..]));
+        assert!(model.warnings.iter().any(|line| line.ends_with(end)), "{:?}", model.warnings);
+    }
+}
+
+#[test]
+fn the_size_of_bumps_is_a_number() {
+    let map = png(&[[9, 9, 9, 255]], 1);
+    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    for size in ["x", "nan", "inf", "1e9"] {
+        let mtl = format!("newmtl a\nbump -bm {size} t.png\n");
+        let files: [(&str, &[u8]); 3] =
+            [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", &map)];
+        let model = load_files(&files, &Limits::DEFAULT).unwrap();
+        assert_eq!(model.materials[model.meshes[0].material].normal_scale, 1.0);
+        let line = format!("m.mtl:2: bump has the option -bm \"{size}\", which is not supported");
+        assert!(model.warnings[0].starts_with(&line), "{:?}", model.warnings);
+    }
+}
+
+#[test]
 fn a_file_of_numbers_that_is_none_leaves_the_numbers() {
     for (name, bytes) in [("t.png", &b"text"[..]), ("other.png", b"")] {
         let mtl = b"newmtl a\nPr 0.25\nmap_Pr t.png\nmap_Pm t.png\n";

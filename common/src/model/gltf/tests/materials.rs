@@ -106,3 +106,26 @@ fn materials_become_todays() {
     let lamp = r#""emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}"#;
     assert_eq!(shown(&quad(lamp, [0; 4])).model.materials[0].emission, Vec3::new(4.0, 2.0, 0.0));
 }
+
+#[test]
+fn a_normal_map_is_linear_and_brings_its_coordinates() {
+    let map = r#""normalTexture":{"index":0,"scale":-0.5,"texCoord":1}"#;
+    let scene = shown(&quad(map, [0, 128, 255, 255]));
+    let material = &scene.model.materials[0];
+    assert_eq!((material.normal_texture, material.normal_scale), (Some(0), -0.5));
+    assert!(!scene.model.textures[0].srgb && scene.model.warnings.is_empty());
+    assert_eq!(scene.model.meshes[0].vertices[1].uv, Vec2::ONE);
+    // One set of coordinates per material: that of its colour.
+    let color = r#""pbrMetallicRoughness":{"baseColorTexture":{"index":0}}"#;
+    let scene = shown(&quad(&format!("{map},{color}"), [0, 128, 255, 255]));
+    let srgb: Vec<_> = scene.model.textures.iter().map(|texture| texture.srgb).collect();
+    assert_eq!(srgb, [true, false]);
+    assert_eq!(scene.model.materials[0].normal_texture, Some(1));
+    let [warning] = &scene.model.warnings[..] else { panic!("{:?}", scene.model.warnings) };
+    assert!(warning.ends_with(
+        "has a normal map with texture coordinates of its own; those of its colour count"
+    ));
+    let missing = shown(&quad(r#""normalTexture":{"index":7}"#, [0; 4]));
+    assert_eq!(missing.model.materials[0].normal_texture, None);
+    assert_eq!(missing.model.warnings.len(), 1);
+}

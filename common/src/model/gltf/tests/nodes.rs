@@ -138,7 +138,17 @@ fn the_chess_set_is_the_same_as_its_obj_file() {
         with.count()
     };
     assert_eq!((holes(&gltf), holes(&obj)), (1, 1));
-    assert_eq!(gltf.model.textures[0].rgba, obj.model.textures[0].rgba);
+    let picture = |scene: &Scene| {
+        let material = scene.model.materials.iter().find(|material| material.has_cutout());
+        let texture = material.and_then(|material| material.base_texture).unwrap();
+        scene.model.textures[texture].rgba.clone()
+    };
+    assert!(picture(&gltf) == picture(&obj), "the pictures of the screens differ");
+    let squares = ["board_light", "board_dark"];
+    for material in &gltf.model.materials {
+        let has_map = material.normal_texture.is_some_and(|map| !gltf.model.textures[map].srgb);
+        assert_eq!(has_map, squares.contains(&&*material.name), "{}", material.name);
+    }
     assert!(gltf.camera.eye.distance(obj.camera.eye) < 1e-6);
     assert_eq!(gltf.model.lights.len(), 2);
 }
