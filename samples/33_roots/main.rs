@@ -54,7 +54,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadows: bool,
     method: Method,
     conditioned: bool,
 }
@@ -82,12 +81,8 @@ impl Sample for Demo {
         let camera = scenes::camera(build.scene, distance);
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let shapes = ShapesOnGpu::new(gpu, &source, &scene, build, camera.eye.as_vec3())?;
-        let constants = Constants {
-            show: Show::Picture,
-            shadows: true,
-            method: Method::Brackets,
-            conditioned: true,
-        };
+        let constants =
+            Constants { show: Show::Picture, method: Method::Brackets, conditioned: true };
         let sun = Sun { azimuth: 60.0, elevation: 38.0, radiance: Vec3::new(4.0, 3.5, 2.8) };
         Ok(Self {
             source,
@@ -103,9 +98,8 @@ impl Sample for Demo {
     }
 
     fn controls(&mut self, c: &mut Controls) {
-        // A scene brings its view, and whether its shadows are worth their time.
+        // A scene brings its view.
         if c.choice("scene", &mut self.build.scene) {
-            self.constants.shadows = self.build.scene == SceneKind::Chain;
             self.camera = scenes::camera(self.build.scene, self.distance);
         }
         if c.slider("distance", &mut self.distance, 2.0..=1e6) {
@@ -151,6 +145,7 @@ impl Sample for Demo {
     }
 }
 
+// ANCHOR: pipeline
 /// A hit group for each kind of surface: triangles and tori.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
@@ -166,9 +161,8 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("torus.rint").closest_hit("shape.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadows)
-        .constant(2, constants.method)
-        .constant(3, constants.conditioned)
+        .constant(1, constants.method)
+        .constant(2, constants.conditioned)
         .recursion(1)
         .rounding_to_nearest_even(gpu)
         .binding(Binding::AccelerationStructure)
@@ -177,3 +171,4 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
+// ANCHOR_END: pipeline

@@ -18,7 +18,7 @@ const KING: Vec3 = Vec3::new(0.5, 0.0, 3.5);
 pub fn camera(scene: SceneKind, distance: f32) -> Camera {
     match scene {
         SceneKind::Chain => {
-            Camera::new(DVec3::new(-2.0, 2.1, 7.2), DVec3::new(0.25, 0.62, 3.2), 30.0)
+            Camera::new(DVec3::new(-2.3, 2.3, 8.0), DVec3::new(0.2, 0.82, 3.2), 31.0)
         }
         SceneKind::Ring => {
             let distance = f64::from(distance);
@@ -36,9 +36,12 @@ pub fn tori(scene: SceneKind, tube: f32, model: &Model) -> Vec<Torus> {
     match scene {
         SceneKind::Chain => {
             let mut tori = chain(KING, 0.74, [0.15, 0.042], first);
-            // A ring of wire that leans against the king, and a fat one on an empty square.
-            let (center, axis) = (Vec3::new(0.5, 1.12, 3.5), Vec3::new(-0.3, 1.0, 0.16));
-            tori.push(Torus { center, axis, major: 0.52, minor: 0.011, material: first });
+            // A hoop of wire that leans against the king, and a fat ring on an empty square.
+            let aside = Vec3::new(-0.6, 0.0, 0.8);
+            let (low, high) = (KING + 1.25 * aside, KING + Vec3::new(0.0, 0.95, 0.0) + 0.2 * aside);
+            let axis = (high - low).cross(Vec3::Y.cross(aside));
+            let (center, major) = (0.5 * (low + high), 0.5 * (high - low).length());
+            tori.push(Torus { center, axis, major, minor: 0.011, material: first });
             let (center, axis) = (Vec3::new(-0.62, 0.15, 2.62), Vec3::Y);
             tori.push(Torus { center, axis, major: 0.23, minor: 0.15, material: first + 1 });
             tori

@@ -20,9 +20,6 @@ layout(push_constant, scalar) uniform Push {
     DirectionalLight light;
 } push;
 
-// A scene says whether its shadows are worth their time.
-layout(constant_id = 1) const bool SHADOWS = true;
-
 // Hit kinds of intersection shaders go from 0 to 127; those of triangles are 254 and 255.
 const uint KIND_TORUS = 0;
 

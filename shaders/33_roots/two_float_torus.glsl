@@ -27,6 +27,7 @@ vec2 ff_q(const Exact e, vec2 x) {
     return ff_add(ff_mul(upper, x), e.m);
 }
 
+// ANCHOR: value
 // G, or half of its derivative.
 vec2 ff_value(const Exact e, bool is_slope, vec2 x) {
     vec2 z = ff_z(e, x);
@@ -41,6 +42,7 @@ vec2 ff_value(const Exact e, bool is_slope, vec2 x) {
     sum_add_product(sum, wz, z);
     return sum_total(sum);
 }
+// ANCHOR_END: value
 
 // The derivative of ff_value(), rounded: it only decides how fast Newton's method converges.
 float rough_slope(const Exact e, bool is_slope, float x) {
@@ -60,8 +62,7 @@ bool ff_negative(vec2 a) {
 const int TWO_FLOAT_STEPS = 60;
 const float LAST_STEP = 2.8421709e-14;    // 2^-45, in units of R
 
-vec2 ff_root_between(const Exact e, bool is_slope, vec2 low, vec2 high) {
-    bool negative_at_low = ff_negative(ff_value(e, is_slope, low));
+vec2 ff_root_between(const Exact e, bool is_slope, vec2 low, vec2 high, bool negative_at_low) {
     vec2 x = 0.5 * ff_add(low, high);
     for (int i = 0; i < TWO_FLOAT_STEPS; i++) {
         vec2 y = ff_value(e, is_slope, x);
@@ -177,39 +178,39 @@ bool torus_two_float(vec3 o, vec3 d, Torus torus, float tmin, out Crossing first
         }
         count = 4;
     }
-    // Where G' is 0.
-    vec2 from = low;
-    bool negative = ff_negative(ff_value(e, true, low));
-    int found = 1;
-    for (int i = 1; i < count; i++) {
-        vec2 to = ends[i];
-        bool then = ff_negative(ff_value(e, true, to));
-        if (then != negative) {
-            ends[found] = ff_root_between(e, true, from, to);
-            found++;
-        }
-        from = to;
-        negative = then;
-    }
-    ends[found] = high;
-    // Where G is 0.
-    negative = ff_negative(ff_value(e, false, low));
-    for (int i = 1; i <= found; i++) {
-        bool then = ff_negative(ff_value(e, false, ends[i]));
-        if (then != negative) {
-            vec2 x = ff_root_between(e, false, ends[i - 1], ends[i]);
-            if (ff_less(above, x)) {
-                vec2 sum = ff_add(base, x);
-                float t = scaled(sum.x, faster);
-                if (t > tmin) {
-                    TwoFloat3 at = TwoFloat3(ff_add(p.x, ff_mul(x, d.x)), ff_add(p.y, ff_mul(x, d.y)),
-                        ff_add(p.z, ff_mul(x, d.z)));
-                    first = ff_crossing(t, at, ff_z(e, x), n, nn, major, d);
-                    return true;
+    // First the places where G' is 0, then those where G is. One loop for both, so that the code exists once.
+    vec2 x = low;
+    float t = 0.0;
+    bool hit = false;
+    for (int pass = 0; pass < 2 && !hit; pass++) {
+        bool is_slope = pass == 0;
+        int found = 1;
+        vec2 from = low;
+        bool negative = false;
+        for (int i = 0; i < count && !hit; i++) {
+            vec2 to = ends[i];
+            bool then = ff_negative(ff_value(e, is_slope, to));
+            if (i > 0 && then != negative) {
+                x = ff_root_between(e, is_slope, from, to, negative);
+                t = scaled(ff_add(base, x).x, faster);
+                hit = !is_slope && t > tmin;
+                if (is_slope) {
+                    ends[found] = x;
+                    found++;
                 }
             }
+            from = to;
+            negative = then;
         }
-        negative = then;
+        if (is_slope) {
+            ends[found] = high;
+            count = found + 1;
+        }
     }
-    return false;
+    if (!hit) {
+        return false;
+    }
+    TwoFloat3 at = TwoFloat3(ff_add(p.x, ff_mul(x, d.x)), ff_add(p.y, ff_mul(x, d.y)), ff_add(p.z, ff_mul(x, d.z)));
+    first = ff_crossing(t, at, ff_z(e, x), n, nn, major, d);
+    return true;
 }

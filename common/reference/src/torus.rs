@@ -37,8 +37,7 @@ impl Torus {
         let m = f.length_squared() - &major * &major - &minor * &minor;
         let (h, rate) = (f.dot(&n), d.dot(&n));
         let size = &major + &minor;
-        let level =
-            &four * &major * &minor * (&major * &minor - rational(lift) * &size * &size);
+        let level = &four * &major * &minor * (&major * &minor - rational(lift) * &size * &size);
         Polynomial::new(&[
             &m * &m + &w * &h * &h - level,
             &four * &fd * &m + &two * &w * &h * &rate,
@@ -129,7 +128,8 @@ mod tests {
     fn every_hard_case_has_its_hits() {
         const CASES: &str =
             concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/torus_cases.json");
-        let text = std::fs::read_to_string(CASES).unwrap_or_else(|error| panic!("{CASES}: {error}"));
+        let text =
+            std::fs::read_to_string(CASES).unwrap_or_else(|error| panic!("{CASES}: {error}"));
         let file: serde_json::Value = serde_json::from_str(&text).unwrap();
         let cases = file["cases"].as_array().unwrap();
         for case in cases {

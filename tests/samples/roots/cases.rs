@@ -1,8 +1,10 @@
 //! Families of rays and tori, each hard in its own way, from fixed seeds.
 
 use glam::DVec3;
+use reference::Ray;
 use reference::random::{Random, f32s, towards};
 use reference::torus::Torus;
+use serde_json::Value;
 
 use super::direct::Case;
 
@@ -105,6 +107,23 @@ fn case(family: &str, random: &mut Random) -> Case {
     // A direction need not be a unit vector: its length is between 2^-8 and 2^8 of what it was.
     ray.direction *= f64::from(random.below(17) as i32 - 8).exp2();
     Case { ray, torus }
+}
+
+/// The rays and tori of `tests/data/torus_cases.json`; the reference's own test compares its answers.
+pub fn hard_cases() -> Vec<Case> {
+    let path = run::root().join("tests/data/torus_cases.json");
+    let text = std::fs::read_to_string(path).expect("the cases");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let number = |of: &Value| of.as_f64().expect("a number");
+    let case = |case: &Value| {
+        let vector = |key: &str| DVec3::from([0, 1, 2].map(|i| number(&case[key][i])));
+        let [origin, direction, center, axis] =
+            ["origin", "direction", "center", "axis"].map(vector);
+        let [tmin, major, minor] = ["tmin", "major", "minor"].map(|key| number(&case[key]));
+        let ray = Ray { origin, direction, tmin, tmax: 1e30 };
+        Case { ray, torus: Torus { center, axis, major, minor } }
+    };
+    file["cases"].as_array().expect("a list").iter().map(case).collect()
 }
 
 /// Another seed: with `SEED=7` the tests try new cases.
