@@ -37,12 +37,13 @@ pub fn tori(scene: SceneKind, tube: f32, model: &Model) -> Vec<Torus> {
         SceneKind::Chain => {
             let mut tori = chain(KING, 0.74, [0.15, 0.042], first);
             // A hoop of wire that leans against the king, and a fat ring on an empty square.
-            let aside = Vec3::new(-0.6, 0.0, 0.8);
-            let (low, high) = (KING + 1.25 * aside, KING + Vec3::new(0.0, 0.95, 0.0) + 0.2 * aside);
+            let aside = Vec3::new(-0.98, 0.0, 0.2);
+            let low = KING + 1.25 * aside + 0.012 * Vec3::Y;
+            let high = KING + 0.24 * aside + 0.95 * Vec3::Y;
             let axis = (high - low).cross(Vec3::Y.cross(aside));
             let (center, major) = (0.5 * (low + high), 0.5 * (high - low).length());
             tori.push(Torus { center, axis, major, minor: 0.011, material: first });
-            let (center, axis) = (Vec3::new(-0.62, 0.15, 2.62), Vec3::Y);
+            let (center, axis) = (Vec3::new(-0.78, 0.15, 2.5), Vec3::Y);
             tori.push(Torus { center, axis, major: 0.23, minor: 0.15, material: first + 1 });
             tori
         }

@@ -1,6 +1,6 @@
 //! Rays through the device's boxes: the nearest hit of all tori, and the shadow rays that leave them.
 
-use common::scene::{Camera, Scene, Sun};
+use common::scene::{Scene, Sun};
 use glam::Vec3;
 use reference::Ray;
 use reference::torus::Torus;
