@@ -21,7 +21,8 @@ common::shader_struct! {
 impl Torus {
     /// Corners of the box around it, never inside it by rounding.
     ///
-    /// Along a coordinate axis e the circle reaches `major·√(1 - (e·n)²)` from the centre, and the tube `minor` farther.
+    /// Along a coordinate axis e the circle reaches `major·√(1 - (e·n)²)` from the centre, and the tube `minor`
+    /// farther.
     pub fn bounds(&self) -> Bounds {
         let normal = self.axis.as_dvec3().normalize();
         let flat = (DVec3::ONE - normal * normal).max(DVec3::ZERO).map(f64::sqrt);
@@ -35,7 +36,8 @@ impl Torus {
     }
 }
 
-/// Links of a closed chain that lies on a plane: each leans against it by 45 degrees, to one side and the other by turns.
+/// Links of a closed chain that lies on a plane: each leans against it by 45 degrees, to one side and the other by
+/// turns.
 ///
 /// `around` is the middle of the circle on which the links lie, on the plane.
 pub fn chain(around: Vec3, radius: f32, [major, minor]: [f32; 2], material: u32) -> Vec<Torus> {

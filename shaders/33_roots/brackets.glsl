@@ -1,8 +1,9 @@
 // The roots of a polynomial by Newton's method in brackets (C. Yuksel, High-Performance Polynomial Root Finding
 // for Graphics, HPG 2022).
 //
-// Between two neighbouring roots of its derivative a polynomial only rises or only falls, so it has a root there if its signs at
-// both ends differ, and no more than one. The derivative's roots are found in the same way, down to a quadratic.
+// Between two neighbouring roots of its derivative a polynomial only rises or only falls, so it has a root there if
+// its signs at both ends differ, and no more than one. The derivative's roots are found in the same way, down to a
+// quadratic.
 
 // A step of Newton's method that would leave the bracket is replaced by the bracket's middle.
 const int NEWTON_STEPS = 40;

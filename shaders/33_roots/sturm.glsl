@@ -1,9 +1,9 @@
 // The roots of a polynomial by Sturm's theorem, as with POV-Ray's keyword `sturm` (D. G. Hook and P. R. McAree,
 // Using Sturm Sequences to Bracket Real Roots of Polynomial Equations, Graphics Gems, 1990).
 //
-// The chain begins with the polynomial and its derivative; each further member is the remainder of the two before it, with
-// the opposite sign. The signs of the chain's members change v(x) times from the first to the last. Between low and
-// high the polynomial has v(low) - v(high) different roots.
+// The chain begins with the polynomial and its derivative; each further member is the remainder of the two before it,
+// with the opposite sign. The signs of the chain's members change v(x) times from the first to the last. Between low
+// and high the polynomial has v(low) - v(high) different roots.
 
 struct Sturm {
     Quartic member[5];

@@ -1,8 +1,8 @@
 // A ray against a torus, as a polynomial of degree four.
 //
-// Seen from the centre, a point p lies on the torus if (|p|² + R² - r²)² = 4R²·(|p|² - (p·n)²), where n is the unit axis, R
-// the distance from the centre to the middle of the tube, and r the tube's radius. With the ray's point
-// p = f + x·d both sides are polynomials in x.
+// Seen from the centre, a point p lies on the torus if (|p|² + R² - r²)² = 4R²·(|p|² - (p·n)²), where n is the
+// unit axis, R the distance from the centre to the middle of the tube, and r the tube's radius. With the ray's
+// point p = f + x·d both sides are polynomials in x.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
 const uint METHOD_FERRARI = 0;

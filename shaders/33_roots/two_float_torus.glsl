@@ -165,7 +165,8 @@ bool torus_two_float(vec3 o, vec3 d, Torus torus, float tmin, out Crossing first
 
     // Where G'' is 0: x² + 2b·x + c, with b almost 0.
     precise float b = e.pd.x / e.dd.x;
-    vec2 constant = ff_add(ff_add(4.0 * ff_mul(e.pd, e.pd), 2.0 * ff_mul(e.dd, e.m)), ff_mul(e.w, ff_mul(e.rate, e.rate)));
+    vec2 constant = ff_add(4.0 * ff_mul(e.pd, e.pd), 2.0 * ff_mul(e.dd, e.m));
+    constant = ff_add(constant, ff_mul(e.w, ff_mul(e.rate, e.rate)));
     precise float c = constant.x / (6.0 * e.dd.x * e.dd.x);
     vec2 ends[5] = vec2[5](low, high, high, high, high);
     int count = 2;

@@ -135,8 +135,8 @@ impl Sturm {
         self.changes(low) - self.changes(high)
     }
 
-    /// The different roots x with `low < x <= high`, in order, each within an interval whose ends differ by less than 2^-`bits`
-    /// of the root.
+    /// The different roots x with `low < x <= high`, in order, each within an interval whose ends differ by less than
+    /// 2^-`bits` of the root.
     pub fn roots(&self, low: f64, high: f64, bits: usize) -> Vec<[Dyadic; 2]> {
         let simple = self.square_free();
         let [low, high] = [low, high].map(Dyadic::from);

@@ -107,8 +107,9 @@ fn size_in_t(case: &Case) -> f64 {
 
 /// Returns whether a result is right for a torus whose tube is thicker or thinner by no more than [`LIFT`].
 ///
-/// Between the surfaces of the thicker and of the thinner torus a ray may be outside or inside. So it has surely hit the torus only
-/// once it has crossed both, and a hit may be reported wherever it is between the two, but for a unit of t.
+/// Between the surfaces of the thicker and of the thinner torus a ray may be outside or inside. So it has surely hit
+/// the torus only once it has crossed both, and a hit may be reported wherever it is between the two, but for a unit
+/// of t.
 fn is_excused(case: &Case, found: &Option<Found>) -> bool {
     let roots = [-LIFT, LIFT].map(|lift| case.torus.roots(&case.ray, lift));
     let Some(Found { t, .. }) = *found else {
