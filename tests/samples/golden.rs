@@ -57,6 +57,7 @@ golden! {
     ray_query,
     ray_query_raster,
     reflection,
+    roots,
     rough_metal,
     sequences,
     shadow_miss,

@@ -40,6 +40,7 @@ mod ray_offset;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;
+mod roots;
 mod rough_metal;
 mod sequences;
 mod settings;

@@ -34,6 +34,7 @@ fn the_order_of_settings_does_not_matter() {
     held("25_scene_effects", ["scene=lake", "depth=2", "light size=0.25"]);
     held("27_glass", ["scene=drink", "sky=day", "camera eye=1,2,3"]);
     held("29_emitters", ["scene=ball", "sky=day", "camera eye=1,2,3"]);
+    held("33_roots", ["scene=ring", "distance=5", "camera eye=1,2,3"]);
     held("45_rough_metal", ["scene=furnace", "sky=black", "camera eye=1,2,3"]);
     held("47_normal_maps", ["scene=plate", "sky=black", "camera eye=1,2,3"]);
 }

@@ -7,6 +7,7 @@
 //! | [`surd`] | `p + q·√r`: the root of a quadratic, a unit normal, compared and rounded exactly |
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
 //! | [`capsule`], [`swept`], [`instance`] | the same for a capsule, a swept sphere, and a sphere under any matrix |
+//! | [`torus`], [`polynomial`] | the same for a torus, by Sturm's theorem for polynomials with whole coefficients |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
@@ -39,6 +40,7 @@ pub mod hit;
 pub mod instance;
 pub mod occlusion;
 pub mod plane;
+pub mod polynomial;
 pub mod random;
 pub mod rational;
 mod ray;
@@ -48,6 +50,7 @@ pub mod sphere;
 pub mod surd;
 mod surface;
 pub mod swept;
+pub mod torus;
 pub mod transform;
 pub mod triangle;
 pub mod ulp;
