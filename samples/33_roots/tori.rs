@@ -49,7 +49,7 @@ pub fn chain(around: Vec3, radius: f32, [major, minor]: [f32; 2], material: u32)
     let link = |i: u32| {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(count);
         let outward = DVec3::new(angle.cos(), 0.0, angle.sin());
-        let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let center = around.as_dvec3() + f64::from(radius) * outward + height * DVec3::Y;
         let axis = (DVec3::Y + side * outward).normalize();
         Torus { center: center.as_vec3(), axis: axis.as_vec3(), major, minor, material }

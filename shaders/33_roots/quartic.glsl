@@ -15,8 +15,27 @@ bool quadratic(float b, float c, out vec2 roots) {
     return true;
 }
 
+// A third of the exponent is a guess that is off by a twentieth; Newton's method doubles its digits in each step.
 float cube_root(float x) {
-    return sign(x) * pow(max(abs(x), 1e-37), 1.0 / 3.0);
+    float size = abs(x);
+    if (!(size > 1e-36)) {
+        return 0.0;
+    }
+    float y = uintBitsToFloat(floatBitsToUint(size) / 3 + 0x2a514067u);
+    for (int i = 0; i < 4; i++) {
+        y -= (y - size / (y * y)) / 3.0;
+    }
+    return sign(x) * y;
+}
+
+// The cosine of a third of an angle, from the cosine: the largest root of 4y³ - 3y - cosine. Vulkan promises few
+// digits of acos(), so this takes Newton's method also. The first guess is right at both ends.
+float cosine_of_third(float cosine) {
+    float y = 0.5 + 0.5 * sqrt(0.5 + 0.5 * cosine);
+    for (int i = 0; i < 5; i++) {
+        y -= ((4.0 * y * y - 3.0) * y - cosine) / max(12.0 * y * y - 3.0, 1e-3);
+    }
+    return y;
 }
 
 // The largest real root of x³ + a·x² + b·x + c (Cardano, and Vieta where there are three).
@@ -32,7 +51,7 @@ float largest_of_cubic(float a, float b, float c) {
     }
     float size = sqrt(-p);
     float cosine = clamp(-q / (size * size * size), -1.0, 1.0);
-    return 2.0 * size * cos(acos(cosine) / 3.0) - third;
+    return 2.0 * size * cosine_of_third(cosine) - third;
 }
 
 // ANCHOR: ferrari

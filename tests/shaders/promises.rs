@@ -221,6 +221,7 @@ fn error_free_sums_demand_rounding_to_nearest() {
                 "22_solids",
                 "24_accuracy",
                 "30_own_tree",
+                "33_roots",
                 "43_filtered_checker",
                 "common",
             ];
@@ -236,6 +237,7 @@ fn error_free_sums_demand_rounding_to_nearest() {
         "22_solids",
         "25_scene_effects",
         "30_own_tree",
+        "33_roots",
         "43_filtered_checker",
     ] {
         // A copy that does not compile with the mode enabled.

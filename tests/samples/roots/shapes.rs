@@ -68,7 +68,7 @@ fn boxes_hold_their_tori() {
 fn links_pass_through_their_neighbours_and_touch_none() {
     let all: Vec<_> = super::traced::scene(SceneKind::Chain, 0.0).iter().map(exact).collect();
     let links: Vec<_> = all.iter().filter(|torus| torus.major == f64::from(0.15f32)).collect();
-    assert!(links.len() > 15 && links.len() % 2 == 0, "{}", links.len());
+    assert!(links.len() > 15 && links.len().is_multiple_of(2), "{}", links.len());
     let turn = std::f64::consts::TAU / 720.0;
     for (i, link) in links.iter().enumerate() {
         let next = links[(i + 1) % links.len()];
