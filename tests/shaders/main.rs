@@ -163,11 +163,15 @@ fn every_file_is_used_by_a_chapter() {
     for stage in measured["stages"].as_array().expect("stages are listed") {
         used.extend(compile(stage.as_str().expect("a path")).unwrap().files());
     }
-    // The atlas does not list its stages: its source names them, and its own tests run them all.
-    let tracer = run::root().join("samples/24_accuracy/atlas/tracer.rs");
-    let tracer = std::fs::read_to_string(tracer).expect("a source");
-    for stage in tracer.split('"').filter(|word| word.starts_with("atlas")) {
-        used.extend(compile(&format!("24_accuracy/{stage}")).unwrap().files());
+    // The atlas and the search for faults do not list their stages: their sources name them, and their own tests run
+    // them all.
+    for (source, start) in [("atlas/tracer.rs", "atlas"), ("faults.rs", "faults")] {
+        let source = run::root().join("samples/24_accuracy").join(source);
+        let source = std::fs::read_to_string(source).expect("a source");
+        let is_stage = |word: &&str| word.starts_with(start) && word.contains(".r");
+        for stage in source.split('"').filter(is_stage) {
+            used.extend(compile(&format!("24_accuracy/{stage}")).unwrap().files());
+        }
     }
     // The same holds for trees built on the device, and for the shaders used by their tests.
     for source in ["on_device.rs", "on_gpu.rs"] {
