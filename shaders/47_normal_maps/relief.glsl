@@ -102,7 +102,8 @@ Reflection reflection(Relief relief, vec3 color, float roughness, float metallic
         return next;
     }
     mat3 frame = frame_of(relief.mapped);
-    Microfacets surface = microfacets(push.mapped.rough, color, roughness, metallic, relief.view * frame);
+    RoughAddresses rough = push.mapped.rough;
+    Microfacets surface = microfacets(rough, color, roughness, metallic, relief.view * frame);
     next.sun = sun_on(relief, surface, frame, light);
     Bounce way = bounce(surface, choice, u);
     next.weight = way.weight;

@@ -48,7 +48,7 @@ fn one_wrong_digit_of_ours_fails() {
     // The product's rounding error is lost, both by fma() and by halves, so two floats are no better than
     // one.
     let file = "common/error_free.glsl";
-    let shaders = shaders_with(file, "= fma(a, b, -product)", "= 0.0 * fma(a, b, -product)");
+    let shaders = shaders_with(file, "= fma_once(a, b, -product)", "= 0.0 * fma(a, b, -product)");
     replace_line(shaders.path(), file, "= ((x.x * y.x", "= 0.0 * ((x.x * y.x");
     let outcome = hard(&["--seed", "7", "--rays", "40"], Some(shaders.path()));
     assert_eq!(outcome.code, 1, "{}{}", outcome.out, outcome.err);
