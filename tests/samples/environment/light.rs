@@ -92,7 +92,7 @@ const ESTIMATE: &str = "
         float light = 0.0;
         if (SAMPLER != SAMPLER_BOUNCES) {
             SkySample found = sky_sample(push.sky, push.rotation, u.xy, u.zw);
-            light = found.radiance.r * balanced(surface, found.direction, found.density).r;
+            light = found.radiance.r * balanced(surface, found.direction, found.density, BOUNCES).r;
         }
         Bounce next = bounce(surface, w.x, w.yz);
         Texel texel = texel_at(push.sky, push.rotation, next.direction);
