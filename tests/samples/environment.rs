@@ -154,7 +154,10 @@ fn what_is_no_light_is_warned_of_and_black() {
         .output()
         .expect("the sample starts");
     let line = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success() && line.contains("no number, so it is black (2 in all)"), "{line}");
+    assert!(
+        output.status.success() && line.contains("no number, so it is black (2 in all)"),
+        "{line}"
+    );
     let picture = Picture::open_exr(&out).expect("a picture");
     assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()));
 }

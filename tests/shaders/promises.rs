@@ -279,7 +279,7 @@ fn products_use_the_promised_fma_only_where_it_is_promised() {
         };
         let has = |words: &[u32]| {
             let has = |start: &[u32]| words.windows(start.len()).any(|w| w == start);
-            [has(&[2 << 16 | 17, 6030]), words.iter().any(|&word| word == 6 << 16 | 4427)]
+            [has(&[2 << 16 | 17, 6030]), words.contains(&(6 << 16 | 4427))]
         };
         assert_eq!(has(&words(&[("FMA_KHR", "1".to_owned())])), [true, true], "{stage}");
         assert_eq!(has(&words(&[])), [false, false], "{stage}");
