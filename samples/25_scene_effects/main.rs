@@ -163,8 +163,6 @@ impl Sample for Demo {
         c.one_of("without", &mut self.without, &names);
         c.one_of("also", &mut self.also, &names);
         c.checkbox("measure costs", &mut self.measure);
-        c.one_of("show", &mut self.show, &["picture", "time"]);
-        c.slider("hottest", &mut self.hottest, 1e3..=1e8);
         c.integer("samples", &mut self.scene.samples, 1..=64);
         c.integer("depth", &mut self.scene.depth, 0..=32);
         c.integer("bounces", &mut self.scene.bounces, 0..=8);
@@ -180,6 +178,8 @@ impl Sample for Demo {
         c.camera(&mut self.camera);
         c.slider("lens diameter", &mut self.scene.lens.diameter, 0.0..=1.0);
         c.slider("focus", &mut self.scene.lens.focus, effects::FOCUS);
+        c.one_of("show", &mut self.show, &["picture", "time"]);
+        c.slider("hottest", &mut self.hottest, 1e3..=1e8);
     }
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {

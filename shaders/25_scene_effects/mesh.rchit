@@ -75,7 +75,9 @@ uint rough_texels(uint material, vec2 uv) {
             texels.y = textureLod(textures[nonuniformEXT(record.metallic_texture)], uv, 0.0).b;
         }
     }
-    return packUnorm2x16(texels);
+    // As packUnorm2x16, whose error Vulkan does not bound.
+    uvec2 parts = uvec2(round(clamp(texels, 0.0, 1.0) * 65535.0));
+    return parts.x | parts.y << 16;
 }
 #endif
 

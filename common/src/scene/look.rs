@@ -212,7 +212,7 @@ mod tests {
         bumpy.show_only(&[Look::Microfacet, Look::NormalMap], "a.obj");
         assert!(bumpy.model.warnings.is_empty() && bumpy.model.textures == scene.model.textures);
         smooth.model.materials[0].microfacet = None;
-        smooth.show_only(&[Look::Microfacet], "a.obj");
+        smooth.show_only(&[Look::Mirror, Look::Microfacet], "a.obj");
         let line = "a.obj: material \"matte\" has a normal map; this chapter shows it smooth; 47_normal_maps shows it \
                     (1 in all)";
         assert_eq!(smooth.model.warnings, [line]);
