@@ -87,7 +87,7 @@ struct Reason {
     why: String,
 }
 
-/// Whether threads change places between two rays, in the chapter's report.
+/// The reordering of threads, in the chapter's report.
 #[derive(Clone, Debug, Deserialize)]
 struct Reordering {
     divergent: bool,

@@ -16,7 +16,7 @@ MicrofacetRecord microfacet_of(Hit hit) {
     if (hit.material < push.world.rough_count) {
         record = push.rough.microfacets.at[hit.material];
 #ifdef ROUGH_TEXTURES
-        // What is packed would not be exactly 1 without a texture.
+        // A packed 1 is not exactly 1, so without a texture nothing is multiplied.
         vec2 texels = vec2(hit.rough & 0xffffu, hit.rough >> 16) / 65535.0;
         record.roughness *= record.roughness_texture < 0 ? 1.0 : texels.x;
         record.metallic *= record.metallic_texture < 0 ? 1.0 : texels.y;

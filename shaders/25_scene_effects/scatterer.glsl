@@ -1,4 +1,4 @@
-// How a surface sends on the light that a shadow ray finds, if a path may find the same light at random.
+// The light that a shadow ray finds, weighted in case a path finds the same light at random.
 
 struct Scatterer {
     float matte;            // the probability that a matte surface scatters the next ray

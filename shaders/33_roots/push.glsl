@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform Push {
 // Hit kinds of intersection shaders go from 0 to 127; those of triangles are 254 and 255.
 const uint KIND_TORUS = 0;
 
-// What the intersection shader leaves for the hit shader: the ring's and the surface's direction at the hit.
+// The hit attributes: the ring's and the surface's direction at the hit.
 struct Frame {
     vec3 ring;
     vec3 outward;

@@ -78,7 +78,7 @@ vec3 other_side(vec3 direction, vec3 face) {
     return direction - 2.0 * dot(direction, face) * face;
 }
 
-// Whether shadow rays share the light with bounces: 1 if so.
+// 1 if shadow rays share the light with bounces, else 0.
 const float BOUNCES = SAMPLER == SAMPLER_BOTH ? 1.0 : 0.0;
 
 // As `balanced`, for a surface that scatters evenly with the probability `matte`, without its colour.

@@ -51,7 +51,7 @@ pub struct Card {
     /// Known faults of drivers, and whether this device has them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<FaultRow>,
-    /// What accuracy costs on this device.
+    /// The price of accuracy on this device, row by row.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prices: Vec<Price>,
     /// A short measurement of chapter 24.

@@ -52,7 +52,7 @@ pub struct Survey<'a> {
     /// The arithmetic of the atlas, if one is requested; for one other than the driver's, only the atlas is
     /// made.
     pub atlas: Option<&'a str>,
-    /// The time it may take; begun anew by [`Survey::run`].
+    /// The time it may take; [`Survey::run`] restarts it.
     allowance: Allowance,
 }
 

@@ -121,7 +121,7 @@ impl Description {
         Ok(model)
     }
 
-    /// How bright the sky is, and the picture that it is.
+    /// The brightness of the sky, and its picture if it has one.
     fn sky(
         &self,
         path: &Path,

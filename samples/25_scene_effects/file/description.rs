@@ -45,7 +45,7 @@ pub(super) struct Description {
     pub(super) heightfield: Option<Spanned<HeightfieldTable>>,
 }
 
-/// How bright the sky is, or the picture that it is.
+/// The sky: a brightness, or a table that names a picture.
 pub(super) enum Sky {
     Brightness(f32),
     Picture(SkyTable),

@@ -20,7 +20,7 @@ pub const FAMILIES: [&str; 10] = [
     "thin",     // a tube of 1e-6 to 1e-2 of the ring
     "closed",   // a tube as thick as the ring, or nearly
     "inside",   // from inside the tube
-    "surface",  // from the surface, but for rounding
+    "surface",  // from the surface, up to rounding
     "plane",    // along the axis, in the ring's plane, along its top
 ];
 
