@@ -34,37 +34,52 @@ pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
     given
 }
 
-/// Rays that start at the hits of others: to the light, or in random directions.
+/// Rays that start at the hits of others, each in the direction that `to` returns for its hit.
 fn secondary(
     given: &[Given],
     answers: &[Answer],
-    to: impl FnMut() -> Vec3,
+    mut to: impl FnMut(&Given, &Answer) -> Vec3,
     any: u32,
 ) -> Vec<Given> {
-    let mut to = to;
-    let mut rays = Vec::new();
-    for (ray, answer) in given.iter().zip(answers) {
-        if answer.instance != NOTHING {
-            let origin = ray.origin + ray.direction * (answer.t * 0.9999);
-            rays.push(Given { origin, tmax: 1e30, direction: to(), any });
-        }
-    }
-    rays
+    let hits = given.iter().zip(answers).filter(|(_, answer)| !misses(answer));
+    let ray = |(ray, answer): (&Given, &Answer)| Given {
+        origin: ray.origin + ray.direction * (answer.t * 0.9999),
+        tmax: 1e30,
+        direction: to(ray, answer),
+        any,
+    };
+    hits.map(ray).collect()
+}
+
+/// The unit normal of the triangle that a walk has hit, on the ray's side.
+fn normal_at(rig: &Rig, scene: &Scene, ray: &Given, answer: &Answer) -> Vec3 {
+    let instance = &scene.instances[answer.instance as usize];
+    let orders = &rig.own.trees.orders;
+    let first: usize = orders[..instance.mesh].iter().map(Vec::len).sum();
+    let triangle = orders[instance.mesh][answer.position as usize - first];
+    let mesh = &scene.model.meshes[instance.mesh];
+    let corners = mesh.triangles[triangle as usize];
+    let [a, b, c] = corners.map(|at| {
+        instance.transform.transform_point3(mesh.vertices[at as usize].position).as_dvec3()
+    });
+    let normal = (b - a).cross(c - a).normalize().as_vec3();
+    if normal.dot(ray.direction) > 0.0 { -normal } else { normal }
 }
 
 /// The kinds of rays in a scene: through pixels, from the hits to the light, and from the hits in random
-/// directions.
+/// directions away from the surface.
 fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
     let given = primary(scene, [960, 600]);
-    let (answers, _) = rig.answers(&rig.way(By::Device, BEST), &given);
+    let (answers, _) = rig.answers(&rig.way(By::Walk, BEST), &given);
     let light = Vec3::new(0.4, 0.3, 0.2).normalize();
     let mut random = Random(3);
-    let bounce = || {
+    let away = |ray: &Given, answer: &Answer| {
         let v: DVec3 = random.unit();
-        Vec3::new(v.x as f32, v.y.abs() as f32, v.z as f32)
+        let (v, normal) = (v.as_vec3(), normal_at(rig, scene, ray, answer));
+        if v.dot(normal) < 0.0 { -v } else { v }
     };
-    let shadow = secondary(&given, &answers, || light, 1);
-    let bounce = secondary(&given, &answers, bounce, 0);
+    let shadow = secondary(&given, &answers, |_, _| light, 1);
+    let bounce = secondary(&given, &answers, away, 0);
     [("primary", given), ("shadow", shadow), ("bounce", bounce)]
 }
 
@@ -86,6 +101,7 @@ fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     let exact = LazyCell::new(|| reference(scene));
     for (kind, rays) in kinds(&rig, scene) {
         let (mut ratios, mut rates, mut steps) = (Vec::new(), Vec::new(), 0.0);
+        let mut near = 0;
         let mut differing: Vec<(&Given, Answer)> = Vec::new();
         for _ in 0..ROUNDS {
             let (ours, own) = rig.answers(&walk, &rays);
@@ -95,6 +111,7 @@ fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
             let both = rays.iter().zip(&ours).zip(&theirs);
             let differ = both.filter(|((_, ours), theirs)| misses(ours) != misses(theirs));
             differing = differ.map(|((ray, ours), _)| (ray, *ours)).collect();
+            near = ours.iter().filter(|a| !misses(a) && a.t < 0.01).count();
             steps = ours.iter().map(|a| f64::from(a.count)).sum::<f64>() / rays.len() as f64;
         }
         let ([low, ratio, high], [_, rate, _]) = (quartiles(ratios), quartiles(rates));
@@ -107,7 +124,7 @@ fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
         let walk_right = differing.iter().filter(is_right).count();
         println!(
             "{name} {kind}: {ratio:.2} times as fast ({low:.2} to {high:.2}); {rate:.2} million rays \
-             a second; {steps:.1} steps; {differ} of {} differ in hit or miss, the walk \
+             a second; {steps:.1} steps; {near} hits nearer than 0.01; {differ} of {} differ in hit or miss, the walk \
              is right in {walk_right}",
             rays.len()
         );
