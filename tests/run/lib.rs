@@ -14,6 +14,7 @@ pub mod primary_hits;
 mod spent;
 #[cfg(unix)]
 mod tally;
+mod validated;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -121,7 +122,8 @@ fn without_looks(errors: &[u8]) -> String {
     errors.lines().filter(|line| !is_look(line)).collect::<Vec<_>>().join("\n")
 }
 
-/// Renders headless under validation; a failure or a message fails the test.
+/// Renders headless; a failure or a message fails the test. Of runs that differ in numbers only, the first is under
+/// validation (see [`validated::is_new`]).
 pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
     render_by(&mut command(name), size, arguments)
 }
@@ -131,9 +133,11 @@ pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
     let name = sample.get_program().to_string_lossy().into_owned();
+    let validate = validated::is_new(sample, arguments).then_some("--validate");
     let output = sample
-        .args(["--headless", "--validate", "--report", "-", "--size", size, "--out"])
+        .args(["--headless", "--report", "-", "--size", size, "--out"])
         .arg(&out)
+        .args(validate)
         .args(arguments)
         .output()
         .expect("the sample starts");

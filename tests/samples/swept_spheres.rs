@@ -216,29 +216,30 @@ fn no_ray_slips_between_segments(size: &str, least: usize) {
     let strands = Strands::new(SceneKind::Chain, 0, 0);
     let all: Vec<Swept> = strands.segments.iter().map(|segment| swept(&strands, segment)).collect();
     let camera = scenes::camera(SceneKind::Chain, 1.0);
+    let view = |rung: &str, show: &str| {
+        chapter(size).set("scene", "chain").set("rung", rung).set("show", show).picture()
+    };
+    // The rays are the same whatever intersects them.
+    let directions = view("stable", "ray direction");
+    let exact: Vec<_> = rays(&camera, &directions)
+        .map(|ray| {
+            let hits = all.iter().enumerate();
+            let hits = hits.filter_map(|(i, swept)| Some((i, swept.intersect(&ray)?)));
+            let nearest = hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t));
+            (ray, nearest)
+        })
+        .collect();
     for rung in ["stable", "two-float"] {
-        let sets = ["scene=chain", &format!("rung={rung}")];
-        let view = |show: &str| chapter(size).sets(&sets).sets(&[show]).picture();
-        let [hits, directions, normals] =
-            ["show=hit", "show=ray direction", "show=normal"].map(view);
+        let [hits, normals] = ["hit", "normal"].map(|show| view(rung, show));
         let (mut found, mut joints, mut most) = (0, 0, 0.0f64);
-        for ((ray, hit), normal) in
-            rays(&camera, &directions).zip(&hits.pixels).zip(&normals.pixels)
-        {
-            let nearest = |all: &[Swept]| {
-                let hits = all
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(i, swept)| Some((i, swept.intersect(&ray)?)));
-                hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t))
-            };
-            match (nearest(&all), answer(hit)) {
+        for (((ray, nearest), hit), normal) in exact.iter().zip(&hits.pixels).zip(&normals.pixels) {
+            match (nearest, answer(hit)) {
                 (None, None) => {}
                 (Some((segment, exact)), Some(answer)) => {
                     found += 1;
                     most = most.max(ulp_error(answer.t, exact.t));
                     // Near a joint, two segments may share the sphere that was hit, or meet in a valley.
-                    joints += usize::from(answer.primitive as usize != segment);
+                    joints += usize::from(answer.primitive as usize != *segment);
                     let shown = DVec3::new(normal[0].into(), normal[1].into(), normal[2].into())
                         * 2.0
                         - 1.0;

@@ -66,13 +66,17 @@ fn a_slope_follows_the_texture_around_the_triangle() {
         ("mat2x3(1, 0, 0, 2, 0, 0)", "mat2(1, 0, 0, -1)", [1.0, 0.0, 0.0]),
         ("mat2x3(0, 0, 0, 0, 0, 0)", "mat2(1, 0, 0, -1)", [0.0, 0.0, 0.0]),
     ];
-    for (sides, steps, expected) in cases {
-        let body = format!(
-            "mat2x3 axes = texture_axes({sides}, {steps}, vec3(0.0, 0.0, 1.0));
-            answer = vec4(axes * vec2(1.0), 0.0);"
-        );
-        let shown = evaluate("#include \"tangents.glsl\"", &body, "1x1", &[]);
-        let pixel = &shown.pixels[0];
+    let list = |texts: [&str; 10]| texts.join(", ");
+    let body = format!(
+        "mat2x3 sides[10] = {{ {} }};
+        mat2 steps[10] = {{ {} }};
+        mat2x3 axes = texture_axes(sides[at.x], steps[at.x], vec3(0.0, 0.0, 1.0));
+        answer = vec4(axes * vec2(1.0), 0.0);",
+        list(cases.map(|(sides, ..)| sides)),
+        list(cases.map(|(_, steps, _)| steps)),
+    );
+    let shown = evaluate("#include \"tangents.glsl\"", &body, "10x1", &[]);
+    for ((sides, steps, expected), pixel) in cases.into_iter().zip(&shown.pixels) {
         if steps == "mat2(1, 0, 0, -1)" && sides == "mat2x3(1, 0, 0, 2, 0, 0)" {
             // A triangle without an area is hit by no ray.
             assert!(pixel.iter().all(|part| part.is_finite()), "{pixel:?}");
