@@ -1,6 +1,7 @@
 //! 30_own_tree: checks the promises of trees and walks.
 
 mod device;
+mod embree;
 mod growth;
 mod host;
 mod hunts;

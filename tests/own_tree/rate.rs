@@ -68,7 +68,7 @@ fn normal_at(rig: &Rig, scene: &Scene, ray: &Given, answer: &Answer) -> Vec3 {
 
 /// The kinds of rays in a scene: through pixels, from the hits to the light, and from the hits in random
 /// directions away from the surface.
-fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
+pub fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
     let given = primary(scene, [960, 600]);
     let (answers, _) = rig.answers(&rig.way(By::Walk, BEST), &given);
     let light = Vec3::new(0.4, 0.3, 0.2).normalize();
@@ -87,6 +87,11 @@ fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
 fn quartiles(mut numbers: Vec<f64>) -> [f64; 3] {
     numbers.sort_by(f64::total_cmp);
     [1, 2, 3].map(|quarter| numbers[quarter * (numbers.len() - 1) / 4])
+}
+
+/// The median of some numbers.
+pub fn median(numbers: Vec<f64>) -> f64 {
+    quartiles(numbers)[1]
 }
 
 fn misses(answer: &Answer) -> bool {
@@ -158,7 +163,7 @@ pub fn landscape(side: u32) -> Scene {
 }
 
 /// Ten thousand balls sharing one mesh.
-fn balls() -> Scene {
+pub fn balls() -> Scene {
     let mut scene = hunts::scene(hunts::ball(2), 1.0, DVec3::ZERO);
     let mut random = Random(5);
     let ball = scene.instances[0];
