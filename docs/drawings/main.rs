@@ -61,6 +61,7 @@ const DRAWINGS: &[Drawing] = &[
     ("shutter_methods", shutter::methods),
     ("shutter_times", shutter::times),
     ("slabs", shapes::slabs),
+    ("slope_and_wall", surfaces::slope_and_wall),
     ("sphere_foot", shapes::foot),
     ("squashed_normals", surfaces::squashed_normals),
     ("swept", shapes::swept),

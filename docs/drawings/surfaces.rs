@@ -1,11 +1,11 @@
-//! Normals of a squashed surface, and points of a disk.
+//! Normals of a squashed surface, points of a disk, and the slopes that a normal map paints.
 
 use std::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
 use crate::sheet::Anchor::{Middle, Start};
-use crate::sheet::{BLUE, BROWN, LINE, Point, RED, SEA, SOFT, Sheet, WHITE};
+use crate::sheet::{BLUE, BROWN, LEAF, LINE, Point, RED, SEA, SOFT, Sheet, WHITE};
 
 fn point(p: DVec2) -> Point {
     p.to_array()
@@ -76,5 +76,61 @@ pub fn disk_points() -> String {
     for (row, line) in lines.into_iter().enumerate() {
         s.say([580.0, 116.0 + 20.0 * row as f64], Start, line);
     }
+    s.svg()
+}
+
+/// A flat surface with a mapped normal, whose mirrored ray goes below it; and the steps that have these normals, between
+/// whose facets the same ray goes back and forth.
+pub fn slope_and_wall() -> String {
+    let mut s =
+        Sheet::new([840, 300], "Slopes and walls: a flat surface that has the mapped normals");
+    let tilt = 30f64.to_radians();
+    // Down is positive. The slope descends to the right, and the wall looks to the left.
+    let slope = DVec2::new(tilt.sin(), -tilt.cos());
+    let wall = -DVec2::X;
+    let coming = DVec2::new(0.75, 0.66).normalize();
+    let mirrored = |ray: DVec2, normal: DVec2| ray - 2.0 * ray.dot(normal) * normal;
+
+    let hit = DVec2::new(200.0, 170.0);
+    s.polygon(&[[40.0, 170.0], [360.0, 170.0], [360.0, 232.0], [40.0, 232.0]], BLUE, LINE);
+    for x in [80.0, 140.0, 200.0, 260.0, 320.0] {
+        let from = DVec2::new(x, 170.0);
+        s.line(&[point(from), point(from + 42.0 * slope)], SEA, 2.0);
+    }
+    s.arrow(&[point(hit - 130.0 * coming), point(hit)]);
+    let down = mirrored(coming, slope);
+    s.line(&[point(hit), point(hit + 96.0 * down)], RED, 2.0);
+    s.note([236.0, 222.0], Start, "its mirrored ray");
+    s.say([200.0, 264.0], Middle, "painted: the ray goes below the surface");
+
+    let (left, top, width) = (440.0, 150.0, 120.0);
+    let height = width * tilt.tan();
+    let mut outline = vec![[left, top + 110.0], [left, top]];
+    for step in 1..=3 {
+        let x = left + width * f64::from(step);
+        outline.extend([[x, top + height], [x, top]]);
+    }
+    outline.push([left + 3.0 * width, top + 110.0]);
+    s.polygon(&outline, BLUE, LINE);
+    for step in 0..3 {
+        let from = DVec2::new(left + width * (f64::from(step) + 0.22), top + 0.22 * height);
+        s.line(&[point(from), point(from + 42.0 * slope)], SEA, 2.0);
+        let from = DVec2::new(left + width * f64::from(step + 1), top + 0.4 * height);
+        s.line(&[point(from), point(from + 26.0 * wall)], BROWN, 2.0);
+    }
+    let first = DVec2::new(left + 1.42 * width, top + 0.42 * height);
+    let right = mirrored(coming, slope);
+    let at_wall = first + right * ((left + 2.0 * width - first.x) / right.x);
+    let back = mirrored(right, wall);
+    // The slope is where the distance along its normal from its upper end is 0.
+    let end = DVec2::new(left + width, top);
+    let again = at_wall - back * ((at_wall - end).dot(slope) / back.dot(slope));
+    let out = mirrored(back, slope);
+    s.arrow(&[point(first - 130.0 * coming), point(first)]);
+    s.line(&[point(first), point(at_wall), point(again)], LEAF, 2.0);
+    s.arrow(&[point(again), point(again + 130.0 * out)]);
+    s.note([left + 3.0 * width + 8.0, top + 0.5 * height], Start, "wall");
+    s.note([left + 16.0, top + height + 16.0], Start, "slope");
+    s.say([left + 1.5 * width, 284.0], Middle, "steps: slope, wall, slope again, and out");
     s.svg()
 }

@@ -200,6 +200,7 @@ fn checks() -> Texture {
         height,
         rgba,
         srgb: true,
+        slopes: false,
         sampling: Sampling::default(),
     }
 }

@@ -83,6 +83,7 @@ fn tiles() -> Texture {
         height: side,
         rgba,
         srgb: true,
+        slopes: false,
         sampling: Sampling::default(),
     }
 }

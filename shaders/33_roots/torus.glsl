@@ -44,7 +44,7 @@ Quartic derivative(Quartic q) {
 
 // ANCHOR: expanded
 // The polynomial as it comes from the formula, seen from the ray's origin. From a distance D its constant term
-// is about D⁴, and what tells a hit from a miss is about R³·r.
+// is about D⁴, and a hit differs from a miss by no more than 4R²·r².
 Quartic quartic_from_origin(vec3 f, vec3 d, vec3 n, float major, float minor) {
     precise float dd = dot(d, d);
     precise float fd = dot(f, d);

@@ -110,13 +110,13 @@ void advance(inout Path path, inout Ray ray, RoughHit rough) {
             choice, u, numbers(path, DIMENSION_WALL).x, numbers(path, DIMENSION_LEAVE));
         gather(path, (path.is_between ? vec3(0.0) : material.emission) + arriving * next.sun);
         vec3 direction = frame * next.direction;
-        bool is_below = !next.is_black && dot(direction, hit.face) <= 0.0;
+        bool is_below = !next.is_black && next.leaves && dot(direction, hit.face) <= 0.0;
         bool is_dropped = is_below && (RULE == RULE_CUT || RULE == RULE_BENT);
         path.throughput *= is_dropped ? vec3(0.0) : next.weight;
         path.is_between = !next.leaves;
         ray.direction = RULE == RULE_NONE || path.is_between ? normalize(direction) : kept_above(direction, hit.face);
-        show(path, frame * relief.mapped, is_below && RULE == RULE_NONE,
-            next.is_black || is_below && (is_dropped || RULE == RULE_NONE));
+        bool is_lost = next.is_black || is_dropped || is_below && RULE == RULE_NONE;
+        show(path, frame * relief.mapped, is_below, is_lost);
     } else {
         scatter(path, ray, hit, material, to_light, arriving, choice, u);
         show(path, hit.normal, false, false);

@@ -533,7 +533,7 @@ fn pieces_and_models_that_are_wrong() {
     file_refused(&board("8/8/8/8/8/8/8/xxxxxxxx"), "s.toml:2: 'x' is no chess piece");
     let model = |name: &str| HEAD.replace("[camera]", &format!("model = {name:?}\n[camera]"));
     file_refused(&model("gone.obj"), "s.toml:2: model names \"gone.obj\", which is not there");
-    file_refused(&model("."), "s.toml:2: model names \".\", which is no file");
+    file_refused(&model("."), "s.toml:2: model names \".\", which is a folder");
     for outside in ["../m.obj", "/etc/passwd", "a/../../m.obj", "C:\\m.obj"] {
         file_refused(
             &model(&outside.replace('\\', "/")),

@@ -147,7 +147,8 @@ impl Folder {
         };
         let Ok(inside) = path.strip_prefix(&self.root) else { return Found::Outside };
         if !path.is_file() {
-            return Found::Missing("which is no file".to_owned());
+            let what = if path.is_dir() { "which is a folder" } else { "which is no file" };
+            return Found::Missing(what.to_owned());
         }
         let parts: Vec<_> = inside.iter().map(|part| path_letters(Path::new(part))).collect();
         let beside = self.given.join(inside);
@@ -155,7 +156,7 @@ impl Folder {
         Found::Inside(Named { name, shown, beside, path, instead: None })
     }
 
-    /// The path of a file that differs from this one only in case, relative to `start` if it is below.
+    /// The path of a file that differs from this one, and only in case, relative to `start` if it is below.
     fn alike(&self, path: &Path, start: &Path) -> Option<String> {
         let mut found = self.root.clone();
         for part in path.strip_prefix(&self.root).ok()? {
@@ -168,6 +169,9 @@ impl Folder {
                 next = found.join(alike.into_iter().find(|other| lower(other) == lower(part))?);
             }
             found = next;
+        }
+        if found == path {
+            return None;
         }
         let relative = found.strip_prefix(start).or(found.strip_prefix(&self.root)).ok()?;
         Some(path_letters(relative).replace('\\', "/"))

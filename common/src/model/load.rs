@@ -100,13 +100,20 @@ pub(crate) fn load_within(path: &Path, limits: &Limits, place: Place) -> Result<
         materials.push(Material::default());
     }
     for (part, &material) in geometry.parts.iter().zip(&numbers) {
-        let is_textured = materials[material].textures().any(|texture| texture.is_some());
-        if let Some(Some(place)) = texture_places.get(material)
-            && is_textured
-            && !part.has_coordinates()
+        let Some([texture, normals]) = texture_places.get(material) else { continue };
+        if part.has_coordinates() {
+            continue;
+        }
+        let has_normals = materials[material].normal_texture.is_some();
+        let named = materials[material].textures().filter(|texture| texture.is_some()).count();
+        let is_textured = named > usize::from(has_normals);
+        for (kind, place, is_shown) in
+            [(Kind::Untextured, texture, is_textured), (Kind::Unmapped, normals, has_normals)]
         {
-            let what = "is on faces without texture coordinates; write vt, and f with v/vt";
-            warnings.add_many(Kind::Untextured, 1, || format!("{place} {what}"));
+            if let Some(place) = place.as_ref().filter(|_| is_shown) {
+                let what = "is on faces without texture coordinates; write vt, and f with v/vt";
+                warnings.add_many(kind, 1, || format!("{place} {what}"));
+            }
         }
     }
     let ambiguous = geometry.ambiguous();

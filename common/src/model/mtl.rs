@@ -7,12 +7,18 @@ use anyhow::{Result, ensure};
 
 use super::limits::Limits;
 use super::mtl_keywords::Keyword;
-use super::mtl_value::{BRIGHTEST, Value, after_options};
+use super::mtl_value::{BRIGHTEST, Value, after_options, has_late_option};
 use super::text::{Folder, Named, Statement, Text, Unavailable, name, quoted};
-use super::texture::{Role, Texture, TextureFiles};
+use super::texture::{Role, SLOPES_PER_UNIT, Texture, TextureFiles};
 use super::unseen::Places;
 use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
+
+/// What is wrong with two maps of a material's relief.
+const BOTH: &str = "the material has a normal map and a map of heights";
+
+/// What helps if an option is not found.
+const LATE: &str = "; options come before the name";
 
 /// The materials found so far in the MTL files of an OBJ file.
 ///
@@ -40,6 +46,8 @@ struct Given {
     opacity: bool,
     /// A normal map, which takes precedence over a map of heights.
     normals: bool,
+    /// A map of heights.
+    heights: bool,
     /// It has been defined before.
     again: bool,
 }
@@ -62,9 +70,9 @@ impl MaterialLibrary {
         format!("the material {material} is not defined; the mtllib files hold {known}")
     }
 
-    /// For each material, the place of its texture's statement, if there is one.
-    pub fn texture_places(&self) -> Vec<Option<String>> {
-        self.places.iter().map(|places| places.texture.clone()).collect()
+    /// For each material, the places of the statements of a texture and of a normal map, if there are any.
+    pub fn texture_places(&self) -> Vec<[Option<String>; 2]> {
+        self.places.iter().map(|p| [p.texture.clone(), p.normals.clone()]).collect()
     }
 
     /// The materials, and the textures they index; adds warnings about unavailable ones, and about materials of
@@ -75,6 +83,9 @@ impl MaterialLibrary {
         for (material, places) in materials.iter_mut().zip(places) {
             for slot in material.textures() {
                 *slot = slot.and_then(|file| positions[file]);
+            }
+            if material.normal_texture.is_some_and(|texture| textures[texture].slopes) {
+                material.normal_scale /= SLOPES_PER_UNIT;
             }
             places.show(material, warnings);
         }
@@ -224,7 +235,9 @@ impl MaterialLibrary {
                     "bump" | "map_Bump" => Role::Heights,
                     _ => Role::Normals,
                 };
+                given.heights |= role == Role::Heights;
                 if role == Role::Heights && given.normals {
+                    value.warnings.add(Kind::Relief, statement, || BOTH);
                     return Ok(());
                 }
                 let mut bumps = 1.0;
@@ -236,7 +249,8 @@ impl MaterialLibrary {
                 let image = match folder.find(keyword, named, Some(file)) {
                     Ok(image) => image,
                     Err(error) => {
-                        value.warnings.add(role.missing(), statement, || error);
+                        let hint = if has_late_option(named) { LATE } else { "" };
+                        value.warnings.add(role.missing(), statement, || format!("{error}{hint}"));
                         return Ok(());
                     }
                 };
@@ -251,11 +265,18 @@ impl MaterialLibrary {
                     _ => {
                         material.normal_scale = bumps;
                         given.normals |= role == Role::Normals;
+                        if given.normals && given.heights {
+                            value.warnings.add(Kind::Relief, statement, || BOTH);
+                        }
                         &mut material.normal_texture
                     }
                 };
                 *slot = Some(self.textures.add(image, role, statement.place()));
-                places.texture = Some(format!("{}: {keyword}", statement.place()));
+                let place = Some(format!("{}: {keyword}", statement.place()));
+                match role {
+                    Role::Normals | Role::Heights => places.normals = place,
+                    _ => places.texture = place,
+                }
             }
         }
         Ok(())

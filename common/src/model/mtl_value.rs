@@ -11,7 +11,7 @@ use super::warnings::{Kind, Warnings};
 pub(crate) const BRIGHTEST: f32 = 1e6;
 
 /// The largest size of bumps: the steepest slope of an image is finite after that.
-const BUMPIEST: f32 = 1e6;
+pub(crate) const BUMPIEST: f32 = 1e6;
 
 /// The words after a keyword. A wrong number gets a warning, and the nearest that can be shown takes its place.
 pub(crate) struct Value<'a> {
@@ -88,11 +88,15 @@ impl Value<'_> {
 
     /// The size of bumps after the option `-bm`; negative ones make dents of them.
     pub fn bumps(&mut self, argument: &str) -> f32 {
-        let number = argument.parse::<f32>().ok().filter(|number| number.abs() <= BUMPIEST);
-        number.unwrap_or_else(|| {
-            self.pass_over(&format!("the option -bm {}", quoted(argument)));
-            1.0
-        })
+        let number = argument.parse::<f32>();
+        let what = match number {
+            Ok(number) if number.abs() <= BUMPIEST => return number,
+            Ok(number) if !number.is_nan() => format!("is too large, at most {BUMPIEST}"),
+            _ => "is no number".to_owned(),
+        };
+        let what = format!("-bm {} of {} {what}; 1 is taken", quoted(argument), self.keyword);
+        self.correct(Kind::Number, &what);
+        1.0
     }
 
     /// A single number from 0 to `most`; `below` is taken for a negative one.
@@ -159,19 +163,29 @@ fn shown(color: Vec3) -> String {
     color.to_array().map(shown).join(" ")
 }
 
+/// True if a name has an option of a texture behind it, as in `a.png -bm 2`.
+pub(crate) fn has_late_option(named: &str) -> bool {
+    named.split_whitespace().skip(1).any(|word| arguments(word).is_some())
+}
+
+/// The least and the largest number of arguments of an option; of offset, scale and turbulence, only the first is
+/// required. None for other words, such as a name that begins like an option.
+fn arguments(option: &str) -> Option<(usize, usize)> {
+    Some(match option {
+        "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-colorspace"
+        | "-imfchan" | "-texres" | "-type" => (1, 1),
+        "-mm" => (2, 2),
+        "-o" | "-s" | "-t" => (1, 3),
+        _ => return None,
+    })
+}
+
 /// The name of a texture, after the options. `found` receives each option and its first argument.
 pub(crate) fn after_options<'a>(rest: &'a str, found: &mut impl FnMut(&str, &str)) -> &'a str {
     let mut rest = rest;
-    while let Some(option) = rest.split_whitespace().next().filter(|word| word.starts_with('-')) {
-        // The minimum number of arguments of an option; of offset, scale and turbulence, only the first is required.
-        let (least, most) = match option {
-            "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-colorspace"
-            | "-imfchan" | "-texres" | "-type" => (1, 1),
-            "-mm" => (2, 2),
-            "-o" | "-s" | "-t" => (1, 3),
-            // Not an option, but a name that begins like one.
-            _ => break,
-        };
+    while let Some(option) = rest.split_whitespace().next()
+        && let Some((least, most)) = arguments(option)
+    {
         rest = rest[option.len()..].trim_start();
         found(option, rest.split_whitespace().next().unwrap_or_default());
         for taken in 0..most {

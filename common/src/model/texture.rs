@@ -16,9 +16,10 @@ use super::limits::Limits;
 use super::text::{Named, note_opened, open};
 use super::warnings::{self, Warnings};
 use crate::gpu::Sampling;
+pub(crate) use heights::{SLOPES_PER_UNIT, is_grey};
 use kind::Kind;
 
-/// An image of 8 bits per channel.
+/// An image of four bytes per texel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// The file's path relative to the OBJ file's folder.
@@ -27,12 +28,16 @@ pub struct Texture {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Four bytes per texel, rows from top to bottom. Alpha is the file's; without an alpha channel it is the
-    /// luminance if a material uses the file for opacity, and 255 otherwise.
+    /// Rows from top to bottom: four channels of 8 bits, or two half floats if these are `slopes`. Alpha is the
+    /// file's; without an alpha channel it is the luminance if a material uses the file for opacity, and 255
+    /// otherwise.
     pub rgba: Vec<u8>,
     /// True if RGB is sRGB encoded: for colours, but not for a file that is used only for opacity. Alpha is always
     /// linear.
     pub srgb: bool,
+    /// True for x and y of normals whose z is 1, made from heights; a material's scale makes them as steep as the
+    /// heights are.
+    pub slopes: bool,
     /// Filter, and continuation beyond the edges.
     pub sampling: Sampling,
 }
@@ -47,7 +52,8 @@ impl Texture {
         note_opened([path]);
         let (width, height) = image.dimensions();
         let rgba = image.into_raw();
-        Ok(Self { name, width, height, rgba, srgb: true, sampling: Sampling::default() })
+        let (srgb, sampling) = (true, Sampling::default());
+        Ok(Self { name, width, height, rgba, srgb, slopes: false, sampling })
     }
 
     /// Reads a normal map of the project's own, a PNG file.
@@ -58,6 +64,10 @@ impl Texture {
         Ok(Self { srgb: false, ..Self::open(path, name)? })
     }
 }
+
+/// The remark about a normal map in grey.
+pub(crate) const GREY_NORMALS: &str =
+    "is grey, and a normal map has colours; perhaps these are heights, for map_Bump in an MTL file";
 
 /// A remark about a texture that is shown, and its kind.
 pub(crate) type Remark = (warnings::Kind, &'static str);
@@ -189,11 +199,18 @@ impl TextureFile {
         {
             texel[3] = *luminance;
         }
-        if self.role == Role::Heights && !heights::to_normals(&mut rgba, width as usize) {
-            remarks.push((warnings::Kind::Colored, "has colours, and heights are grey"));
+        let is_grey = heights::is_grey(&rgba);
+        let slopes = self.role == Role::Heights && is_grey;
+        match self.role {
+            Role::Heights if is_grey => heights::to_slopes(&mut rgba, width as usize),
+            Role::Heights => {
+                remarks.push((warnings::Kind::Colored, "has colours, and heights are grey"));
+            }
+            Role::Normals if is_grey => remarks.push((warnings::Kind::Grey, GREY_NORMALS)),
+            _ => {}
         }
         let (name, srgb, sampling) = (self.named.name, self.color, Sampling::default());
-        Ok((Texture { name, width, height, rgba, srgb, sampling }, remarks))
+        Ok((Texture { name, width, height, rgba, srgb, slopes, sampling }, remarks))
     }
 
     fn wants_luminance(&self, color: ColorType) -> bool {
@@ -219,9 +236,11 @@ impl TextureFile {
         let need = decoder + decoded + converted + luminance;
         ensure!(
             need <= *left,
-            "is {width} x {height} texels, which take {need} bytes to decode; all textures together may \
-             take {}, of which {left} are left",
-            limits.texture_bytes
+            "is {width} x {height} texels, which take {} to decode; all textures together may take {}, of \
+             which {} are left",
+            size(need),
+            size(limits.texture_bytes),
+            size(*left)
         );
         *left -= 4 * texels;
         Ok(())
@@ -257,6 +276,14 @@ pub(crate) fn decode_bytes(
 ) -> Result<(Texture, Vec<Remark>)> {
     let named = Named { name, ..Named::default() };
     of_color(named).decode_from(Cursor::new(bytes), left, limits)
+}
+
+/// A number of bytes, in a unit that is easy to read.
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..10_000_000 => format!("{bytes} bytes"),
+        _ => format!("{} MB", bytes.div_ceil(1_000_000)),
+    }
 }
 
 /// Checks the sides of an image.

@@ -16,6 +16,8 @@ pub(crate) struct Places {
     pub glass: Option<String>,
     /// The last statement of a texture, with its keyword.
     pub texture: Option<String>,
+    /// The statement of the normal map, likewise.
+    pub normals: Option<String>,
     /// True if `Pr` says how rough it is.
     pub has_roughness: bool,
 }

@@ -21,8 +21,14 @@ pub(crate) enum Kind {
     NormalMap,
     /// A map of heights that has colours.
     Colored,
+    /// A normal map in grey.
+    Grey,
+    /// A normal map and a map of heights in one material.
+    Relief,
     /// A texture on faces without texture coordinates.
     Untextured,
+    /// A normal map on such faces.
+    Unmapped,
     /// A file of the name beside the model, but not where the name leads.
     Elsewhere,
     /// A texture of which the end is missing.
@@ -68,8 +74,9 @@ impl Kind {
             Self::Material => Some("a grey stands for it"),
             Self::Texture => Some("the plain colour stands for it"),
             Self::Numbers => Some("the material's number alone counts"),
-            Self::NormalMap => Some("the surface is smooth"),
-            Self::Colored => Some("it is taken as a normal map"),
+            Self::NormalMap | Self::Unmapped => Some("the surface is smooth"),
+            Self::Colored | Self::Grey => Some("it is taken as a normal map"),
+            Self::Relief => Some("the normal map counts"),
             Self::Elsewhere => Some("the file of that name beside the model is taken"),
             Self::Cut => Some("what there is of it is shown"),
             Self::Turned => Some("it is turned, as viewers of photographs do"),

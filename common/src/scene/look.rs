@@ -120,6 +120,7 @@ impl Model {
         for (number, texture) in self.textures.iter_mut().enumerate() {
             if !read.contains(&number) {
                 (texture.width, texture.height, texture.rgba) = (1, 1, vec![255; 4]);
+                texture.slopes = false;
             }
         }
     }
@@ -181,6 +182,7 @@ mod tests {
             height: 1,
             rgba: vec![7; 8],
             srgb: false,
+            slopes: false,
             sampling: Sampling::default(),
         };
         let rough =

@@ -172,6 +172,7 @@ fn textures(gpu: &Gpu, model: &Model, mipmaps: bool) -> Result<Arc<TextureTable>
         extent: vk::Extent2D { width: texture.width, height: texture.height },
         rgba: &texture.rgba,
         srgb: texture.srgb,
+        halves: texture.slopes,
         sampling: texture.sampling,
     });
     Ok(Arc::new(TextureTable::new(gpu, &textures.collect::<Vec<_>>(), mipmaps)?))

@@ -35,7 +35,7 @@ pub struct Tally {
     pub false_hits: usize,
     /// A miss where the ray hits.
     pub false_misses: usize,
-    /// Another hit than the first: t is off by more than a thousandth of the torus.
+    /// A hit elsewhere than the first: off by more than a thousandth of the torus, or a quarter of the tube's radius.
     pub other: usize,
     /// Wrong, but right for a tube that is thinner or thicker by less than any input's rounding.
     pub excused: usize,
@@ -57,12 +57,12 @@ impl Tally {
 
     /// Adds the result for a case whose first exact hit is at `exact`.
     pub fn add(&mut self, case: &Case, exact: Option<f64>, found: &Option<Found>) {
-        let near = size_in_t(case) * 1e-3;
+        let near = near_in_t(case);
         match (exact, found) {
             (None, None) => self.misses += 1,
             (Some(t), Some(found)) if ulp_error(found.t, t) <= 1.0 => self.add_hit(case, t, found),
             _ if is_excused(case, found) => self.excused += 1,
-            // From far away a thousandth of the torus is less than the gaps between floats.
+            // From far away that may be less than the gaps between floats.
             (Some(t), Some(found))
                 if (f64::from(found.t) - t).abs() <= near || ulp_error(found.t, t) <= 8.0 =>
             {
@@ -99,10 +99,11 @@ impl Tally {
     }
 }
 
-/// The length of the torus, as a difference of t.
-fn size_in_t(case: &Case) -> f64 {
+/// How far from the first hit an answer still counts as that hit, as a difference of t. The next hit of a thin tube is
+/// nearly always farther away.
+fn near_in_t(case: &Case) -> f64 {
     let Torus { major, minor, .. } = case.torus;
-    (major + minor) / case.ray.direction.length()
+    (1e-3 * (major + minor)).min(0.25 * minor) / case.ray.direction.length()
 }
 
 /// Returns whether a result is right for a torus whose tube is thicker or thinner by no more than [`LIFT`].

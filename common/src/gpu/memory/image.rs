@@ -163,6 +163,7 @@ impl Image {
             .image(handle)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(view_format)
+            .components(channels(format))
             .subresource_range(image.range());
         let allocation = &image.memory.insert(memory).allocation;
         // SAFETY: the allocation was made for this image and is freed after it.
@@ -241,6 +242,15 @@ pub(in crate::gpu) fn transition_level(
     let dependency = vk::DependencyInfo::default().image_memory_barriers(&barriers);
     // SAFETY: cmd is being recorded on this device.
     unsafe { gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
+}
+
+/// The channels as shaders read them: a texture of two is x and y of a vector whose z is 1.
+fn channels(format: vk::Format) -> vk::ComponentMapping {
+    let b = match format {
+        vk::Format::R16G16_SFLOAT => vk::ComponentSwizzle::ONE,
+        _ => vk::ComponentSwizzle::IDENTITY,
+    };
+    vk::ComponentMapping { b, ..Default::default() }
 }
 
 /// The aspect of a format: depth or colour.

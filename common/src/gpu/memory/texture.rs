@@ -31,7 +31,8 @@ impl TextureTable {
         // An empty array is not allowed, nor is a slot without a texture.
         let extent = vk::Extent2D { width: 1, height: 1 };
         let sampling = Sampling::default();
-        let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false, sampling }];
+        let name = "no texture";
+        let none = [Texels { name, extent, rgba: &[255; 4], srgb: false, halves: false, sampling }];
         let textures = if textures.is_empty() { &none } else { textures };
         let count = textures.len() as u32;
         fits(count, gpu.limits.max_textures(), &gpu.name)?;

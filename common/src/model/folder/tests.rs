@@ -89,6 +89,28 @@ fn a_file_that_differs_only_in_case_is_named() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_link_out_of_the_folder_is_named_as_such_and_a_folder_also() {
+    let [folder, elsewhere] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let at = |name: &str| folder.path().join(name);
+    let outside = elsewhere.path().join("t.png");
+    std::fs::write(&outside, png(&[[1, 2, 3, 4]], 1)).unwrap();
+    std::os::unix::fs::symlink(&outside, at("link.png")).unwrap();
+    std::fs::create_dir(at("dir.png")).unwrap();
+    std::fs::write(at("model.obj"), format!("mtllib m.mtl\nusemtl a\n{TEXTURED}")).unwrap();
+    for (name, why) in [
+        ("link.png", "outside the OBJ file's folder; copy it into the folder"),
+        ("dir.png", "which is a folder"),
+    ] {
+        std::fs::write(at("m.mtl"), format!("newmtl a\nmap_Kd {name}\n")).unwrap();
+        let warnings = super::super::obj::load(&at("model.obj")).unwrap().warnings;
+        let words =
+            format!("map_Kd names \"{name}\", {why}; the plain colour stands for it (1 in all)");
+        assert!(warnings.len() == 1 && warnings[0].ends_with(&words), "{warnings:?}");
+    }
+}
+
 #[test]
 fn names_of_another_encoding_are_not_confused() {
     let (red, blue): (&[u8], &[u8]) = (b"\x90\xd4", b"\x90\xc2");

@@ -115,7 +115,7 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
             (false, 1) => format!("byte {} of its JSON part: ", error.column()),
             (false, line) => format!("line {line} of its JSON part: "),
         };
-        anyhow!("{place}{}", reason(&error))
+        anyhow!("{place}{}", reason(&error, json))
     })
 }
 
@@ -154,8 +154,19 @@ fn version(json: &[u8]) -> Option<String> {
     Some(serde_json::from_slice::<Head>(json).ok()?.asset.version)
 }
 
+/// The key whose value ends where the parser stopped, or holds that place: the last one before it.
+fn key_before(json: &[u8], line: usize, column: usize) -> Option<&str> {
+    let start = json.split_inclusive(|&byte| byte == b'\n').take(line.checked_sub(1)?);
+    let end = start.map(<[u8]>::len).sum::<usize>() + column;
+    let before = str::from_utf8(json.get(..end.min(json.len()))?).ok()?;
+    let mut colons = before.rmatch_indices(':').map(|(at, _)| before[..at].trim_end());
+    // A colon within a string does not follow a quote.
+    let key = colons.find_map(|before| before.strip_suffix('"'))?;
+    key.rsplit('"').next().filter(|key| key.len() < 64)
+}
+
 /// The reason of the parser in our own words, which name what it names.
-fn reason(error: &serde_json::Error) -> String {
+fn reason(error: &serde_json::Error, json: &[u8]) -> String {
     use serde_json::error::Category;
     match error.classify() {
         Category::Eof => "the JSON ends too soon; the file is perhaps cut off".to_owned(),
@@ -168,7 +179,12 @@ fn reason(error: &serde_json::Error) -> String {
                 (Some(key), _, _) => format!("the key \"{key}\" is missing here"),
                 (_, Some(value), _) => format!("\"{value}\" is no value that glTF 2 has here"),
                 (_, _, Some(key)) => format!("the key \"{key}\" is there twice"),
-                _ => "a value of another type than glTF 2 has here".to_owned(),
+                _ => match key_before(json, error.line(), error.column()) {
+                    Some(key) => {
+                        format!("the key \"{key}\" has a value of another type than in glTF 2")
+                    }
+                    None => "a value of another type than glTF 2 has here".to_owned(),
+                },
             }
         }
     }

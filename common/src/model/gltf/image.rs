@@ -29,6 +29,17 @@ pub(super) enum Use {
     Normals,
 }
 
+impl Use {
+    /// What stands for a texture that cannot be read.
+    fn instead(self) -> &'static str {
+        match self {
+            Self::Color | Self::Cutout(_) => "the plain colour stands for it",
+            Self::Numbers => "the factors of metalness and roughness alone count",
+            Self::Normals => "the surface is smooth",
+        }
+    }
+}
+
 /// A texture of the model.
 #[derive(Clone, Copy)]
 pub(super) struct Loaded {
@@ -73,7 +84,7 @@ impl<'a> Images<'a> {
         let root = &self.file.root;
         let Some(source) = root.get(index) else {
             let what = || missing("texture", index, &root.textures);
-            features.note("texture", 1, || format!("{}; {PLAIN}", what()));
+            features.note(for_what.instead(), 1, || format!("{}; {}", what(), for_what.instead()));
             return None;
         };
         let sampling = source.sampler.and_then(|sampler| root.get(sampler));
@@ -87,17 +98,18 @@ impl<'a> Images<'a> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        let instead = match for_what {
-            Use::Color | Use::Cutout(_) => PLAIN,
-            Use::Numbers => FACTORS,
-            Use::Normals => SMOOTH,
-        };
-        let loaded = self.read(source.source, instead, features).map(|mut texture| {
+        let loaded = self.read(source.source, for_what.instead(), features).map(|mut texture| {
             if let Use::Cutout(threshold) = for_what {
                 cut_at_half(&mut texture.rgba, threshold);
             }
             let has_alpha = texture.rgba.chunks_exact(4).any(|texel| texel[3] < 255);
             let srgb = !matches!(for_what, Use::Numbers | Use::Normals);
+            if for_what == Use::Normals && texture::is_grey(&texture.rgba) {
+                let (number, what) = (source.source.value(), texture::GREY_NORMALS);
+                features.note("grey", 1, || {
+                    format!("image {number}: {what}; it is taken as a normal map")
+                });
+            }
             self.textures.push(Texture { sampling, srgb, ..texture });
             Loaded { index: self.textures.len() - 1, has_alpha }
         });
@@ -185,14 +197,6 @@ impl<'a> Images<'a> {
 
 /// The number of an image that is not named, as the parser has it.
 const NONE: usize = u32::MAX as usize;
-
-/// In place of a texture.
-const PLAIN: &str = "the plain colour stands for it";
-/// In place of a texture of metalness and roughness.
-const FACTORS: &str = "the factors of metalness and roughness alone count";
-
-/// In place of a normal map.
-const SMOOTH: &str = "the surface is smooth";
 
 /// The sampling of a texture. Values that glTF does not have count as its default.
 fn sampling_of(sampler: &Sampler) -> Sampling {

@@ -12,6 +12,7 @@ use gltf::json::validation::Checked;
 use super::features::Features;
 use super::image::{Images, Use};
 use super::{name, range};
+use crate::model::mtl_value::BUMPIEST;
 use crate::model::text::quoted;
 use crate::scene::material::{Material, Microfacet};
 
@@ -41,6 +42,8 @@ pub(super) struct Coordinates {
     pub set: u32,
     /// True if a texture reads them.
     pub is_read: bool,
+    /// True if only the normal map reads them.
+    pub are_of_normals: bool,
     offset: Vec2,
     rotation: f32,
     scale: Vec2,
@@ -48,7 +51,14 @@ pub(super) struct Coordinates {
 
 impl Default for Coordinates {
     fn default() -> Self {
-        Self { set: 0, is_read: false, offset: Vec2::ZERO, rotation: 0.0, scale: Vec2::ONE }
+        Self {
+            set: 0,
+            is_read: false,
+            are_of_normals: false,
+            offset: Vec2::ZERO,
+            rotation: 0.0,
+            scale: Vec2::ONE,
+        }
     }
 }
 
@@ -62,6 +72,7 @@ impl Coordinates {
         Self {
             set: transform.tex_coord.unwrap_or(info.tex_coord),
             is_read: true,
+            are_of_normals: false,
             offset: Vec2::from(transform.offset.0),
             rotation: transform.rotation.0,
             scale: Vec2::from(transform.scale.0),
@@ -256,14 +267,21 @@ fn set_normals(
     let Some(texture) = texture else { return };
     let set = map.tex_coord;
     if !coordinates.is_read {
-        *coordinates = Coordinates { set, is_read: true, ..Coordinates::default() };
+        *coordinates =
+            Coordinates { set, is_read: true, are_of_normals: true, ..Coordinates::default() };
     } else if coordinates.set != set {
         features.note("normal", 1, || {
             format!("{place} has a normal map with texture coordinates of its own; those of its colour count")
         });
     }
     material.normal_texture = Some(texture.index);
-    material.normal_scale = if map.scale.is_finite() { map.scale } else { 1.0 };
+    let (scale, most) = (map.scale, BUMPIEST);
+    if !(scale.abs() <= most) {
+        features.note("bumps", 1, || {
+            format!("{place} has the scale {scale:e} of its normal map, more than {most}; {most} is taken")
+        });
+    }
+    material.normal_scale = if scale.is_nan() { 1.0 } else { scale.clamp(-most, most) };
 }
 
 /// Glass: a sheet by `KHR_materials_transmission`, a body if it has a volume.

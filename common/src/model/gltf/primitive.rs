@@ -51,13 +51,16 @@ impl File {
         let set = Semantic::TexCoords(coordinates.set);
         let uvs = self.of_vertices::<2>(primitive, set, count, features);
         if uvs.is_empty() && coordinates.is_read {
-            features.note("untextured", 1, || {
-                let set = coordinates.set;
-                format!(
-                    "mesh {} has a texture and no TEXCOORD_{set}; one texel colours it",
-                    quoted(name)
-                )
-            });
+            let (set, name) = (coordinates.set, quoted(name));
+            if coordinates.are_of_normals {
+                features.note("unmapped", 1, || {
+                    format!("mesh {name} has a normal map and no TEXCOORD_{set}; it is smooth")
+                });
+            } else {
+                features.note("untextured", 1, || {
+                    format!("mesh {name} has a texture and no TEXCOORD_{set}; one texel colours it")
+                });
+            }
         }
         let indices: Vec<u32> = match primitive.indices {
             Some(indices) => {

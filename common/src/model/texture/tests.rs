@@ -90,8 +90,10 @@ fn a_normal_map_is_linear_and_comes_before_heights() {
     assert_eq!((normals.srgb, &normals.rgba[..]), (false, &[1, 2, 3, 255][..]));
     assert!(textures[material.base_texture.unwrap()].srgb);
     let (materials, textures) = load("newmtl a\nmap_Bump -bm 3 h.png\n", &files).unwrap();
-    assert_eq!(materials[0].normal_scale, 3.0);
-    assert_eq!(textures[materials[0].normal_texture.unwrap()].rgba, [128, 128, 255, 255]);
+    assert_eq!(materials[0].normal_scale, 3.0 / 16.0);
+    let slopes = &textures[materials[0].normal_texture.unwrap()];
+    // Two half floats of 1/2, which mean no slope.
+    assert_eq!((slopes.slopes, &slopes.rgba[..]), (true, &[0, 0x38, 0, 0x38][..]));
 }
 
 #[test]
@@ -117,16 +119,53 @@ fn heights_with_colours_are_a_normal_map_with_one_warning() {
 }
 
 #[test]
+fn two_maps_of_relief_are_one_warning_and_so_is_a_grey_normal_map() {
+    let coloured = png(&[[1, 2, 255, 255]], 1);
+    let grey = png(&[[9, 9, 9, 255]], 1);
+    let obj = "mtllib m.mtl\nusemtl a\nvt 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n";
+    let both =
+        "the material has a normal map and a map of heights; the normal map counts (1 in all)";
+    let is_grey = "the texture g.png: is grey, and a normal map has colours; perhaps these are heights, for \
+                   map_Bump in an MTL file; it is taken as a normal map (1 in all)";
+    for (lines, warning) in [
+        ("norm c.png\nbump g.png\n", format!("m.mtl:3: {both}")),
+        ("bump g.png\nnorm c.png\n", format!("m.mtl:3: {both}")),
+        ("norm g.png\n", format!("m.mtl:2: {is_grey}")),
+        (
+            "norm c.png -bm 3\n",
+            "m.mtl:2: norm names \"c.png -bm 3\", which is not there; options come before the name; the surface \
+             is smooth (1 in all)"
+                .to_owned(),
+        ),
+    ] {
+        let mtl = format!("newmtl a\n{lines}");
+        let files: [(&str, &[u8]); 4] = [
+            ("model.obj", obj.as_bytes()),
+            ("m.mtl", mtl.as_bytes()),
+            ("c.png", &coloured),
+            ("g.png", &grey),
+        ];
+        let model = load_files(&files, &Limits::DEFAULT).unwrap();
+        assert_eq!(model.warnings, [warning], "{lines}");
+    }
+}
+
+#[test]
 fn the_size_of_bumps_is_a_number() {
     let map = png(&[[9, 9, 9, 255]], 1);
     let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
-    for size in ["x", "nan", "inf", "1e9"] {
+    for (size, what) in [
+        ("x", "is no number"),
+        ("nan", "is no number"),
+        ("inf", "is too large, at most 1000000"),
+        ("1e9", "is too large, at most 1000000"),
+    ] {
         let mtl = format!("newmtl a\nbump -bm {size} t.png\n");
         let files: [(&str, &[u8]); 3] =
             [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", &map)];
         let model = load_files(&files, &Limits::DEFAULT).unwrap();
-        assert_eq!(model.materials[model.meshes[0].material].normal_scale, 1.0);
-        let line = format!("m.mtl:2: bump has the option -bm \"{size}\", which is not supported");
+        assert_eq!(model.materials[model.meshes[0].material].normal_scale, 1.0 / 16.0);
+        let line = format!("m.mtl:2: -bm \"{size}\" of bump {what}; 1 is taken");
         assert!(model.warnings[0].starts_with(&line), "{:?}", model.warnings);
     }
 }
@@ -222,7 +261,7 @@ fn files_that_are_wrong() {
             texture(&format!("is {kind} file, which is not read; convert it to PNG or JPEG"));
         warned("map_Kd t.png", head, &words);
     }
-    warned("map_Kd .", b"", "map_Kd names \".\", which is no file");
+    warned("map_Kd .", b"", "map_Kd names \".\", which is a folder");
     for cut in [9, 40, good.len() / 2, good.len() - 20] {
         let start =
             "the texture t.png: cannot be decoded, it is damaged or cut off: it ends too soon";
@@ -298,8 +337,8 @@ fn textures_that_are_too_large() {
         let model = load_files(&all, &limits).unwrap();
         let words = format!(
             "m.mtl:3: the texture b.png: is 12 x 12 texels, which take {need} bytes to decode; all \
-             textures together may take {most}, of which {} are left; the plain colour stands for it (1 \
-             in all)",
+             textures together may take {most} bytes, of which {} bytes are left; the plain colour stands \
+             for it (1 in all)",
             most - 576
         );
         assert_eq!(model.warnings, [words]);

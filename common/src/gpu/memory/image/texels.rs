@@ -14,10 +14,12 @@ pub struct Texels<'a> {
     pub name: &'a str,
     /// Texels in a row, and rows.
     pub extent: vk::Extent2D,
-    /// Four bytes per texel, rows from top to bottom.
+    /// Four bytes per texel, rows from top to bottom: four channels, or two half floats.
     pub rgba: &'a [u8],
     /// True if RGB is sRGB encoded.
     pub srgb: bool,
+    /// True for two half floats, red and green. Blue and alpha are then 1.
+    pub halves: bool,
     /// Filter, and continuation beyond the edges.
     pub sampling: Sampling,
 }
@@ -44,10 +46,15 @@ impl Image {
 }
 
 fn blank(gpu: &Gpu, texels: &Texels, mipmaps: bool) -> Result<Image> {
-    let Texels { name, extent, rgba, srgb, .. } = *texels;
+    let Texels { name, extent, rgba, srgb, halves, .. } = *texels;
     let needed = 4 * extent.width as usize * extent.height as usize;
     ensure!(rgba.len() == needed, "texture '{name}' has {} bytes, not {needed}", rgba.len());
-    let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
+    // Every device samples and blits these formats with a linear filter.
+    let format = match (halves, srgb) {
+        (true, _) => vk::Format::R16G16_SFLOAT,
+        (_, true) => vk::Format::R8G8B8A8_SRGB,
+        _ => vk::Format::R8G8B8A8_UNORM,
+    };
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
     if !mipmaps {
         return Image::new(gpu, name, extent, format, format, usage, 1);

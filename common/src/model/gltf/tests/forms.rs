@@ -88,7 +88,7 @@ fn what_cannot_be_read_is_refused_in_one_line() {
         (
             "\"count\":4",
             "\"count\":-4",
-            "m.gltf: line 4: a value of another type than glTF 2 has here",
+            "m.gltf: line 4: the key \"count\" has a value of another type than in glTF 2",
         ),
         ("\"count\":4,", "", "m.gltf: line 4: the key \"count\" is missing here"),
         (

@@ -127,5 +127,23 @@ fn a_normal_map_is_linear_and_brings_its_coordinates() {
     ));
     let missing = shown(&quad(r#""normalTexture":{"index":7}"#, [0; 4]));
     assert_eq!(missing.model.materials[0].normal_texture, None);
-    assert_eq!(missing.model.warnings.len(), 1);
+    let [warning] = &missing.model.warnings[..] else { panic!("{:?}", missing.model.warnings) };
+    assert!(warning.ends_with("; the surface is smooth"), "{warning}");
+}
+
+#[test]
+fn unlikely_normal_maps_have_a_warning_each() {
+    let steep = r#""normalTexture":{"index":0,"scale":1e30}"#;
+    let grey = r#""normalTexture":{"index":0}"#;
+    let bare = r#""normalTexture":{"index":0,"texCoord":2}"#;
+    for (map, texel, scale, end) in [
+        (steep, [0, 128, 255, 255], 1e6, "more than 1000000; 1000000 is taken"),
+        (grey, [9, 9, 9, 255], 1.0, "it is taken as a normal map"),
+        (bare, [0, 128, 255, 255], 1.0, "has a normal map and no TEXCOORD_2; it is smooth"),
+    ] {
+        let scene = shown(&quad(map, texel));
+        assert_eq!(scene.model.materials[0].normal_scale, scale);
+        let [warning] = &scene.model.warnings[..] else { panic!("{:?}", scene.model.warnings) };
+        assert!(warning.ends_with(end), "{warning}");
+    }
 }
