@@ -15,6 +15,8 @@ common::shader_enum! {
         Textures,
         /// The same, averaged over what a pixel sees of it (19).
         FilteredTextures = "filtered textures",
+        /// Normals from an image, `norm` and `map_Bump` (47).
+        NormalMaps = "normal maps",
         /// Surfaces with holes, `map_d` (03).
         CutOut = "cut-out",
         /// Surfaces that are partly there, `d` below 1 (03).

@@ -67,6 +67,7 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         }
         FilteredTextures if !scene.filtered => None,
         FilteredTextures => worn(&|m| m.base_texture.is_some(), "has a texture, to be filtered"),
+        NormalMaps => worn(&|m| m.normal_texture.is_some(), "has a normal map"),
         CutOut => worn(&|m| m.opacity_texture.is_some() && !m.blended, "has an opacity texture"),
         Blended => worn(&|m| m.opacity < 1.0, "is not opaque")
             .or_else(|| worn(&is_blended, "has a texture that is not opaque")),
@@ -114,6 +115,7 @@ fn why_not(effect: Effect) -> &'static str {
         Triangles => "no mesh is placed",
         Textures => "no material in use has a texture",
         FilteredTextures => "no material in use has a texture, or none is to be filtered",
+        NormalMaps => "no material in use has a normal map",
         CutOut => "no material in use has holes",
         Blended => "every material in use is opaque",
         Spheres => "no sphere",

@@ -10,6 +10,7 @@ use effects::{Composition, EmitterAddresses, Environment, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
 
 use crate::microfacets::{MicrofacetRecord, RoughOnGpu};
+use crate::normal_map::NormalMapRecord;
 use crate::recipe::{GeometryKind, Recipe};
 use crate::sky::{SkyOnGpu, SkyTable, Sum};
 use crate::world::Shapes;
@@ -101,6 +102,11 @@ impl SceneGeometry {
             geometry.shapes.rough_count = records.len() as u32;
             geometry._rough = Some(rough);
         }
+        let maps = from.materials_to_map().iter();
+        let maps: Vec<_> = maps.map(|m| NormalMapRecord::new(Some(m), 1.0)).collect();
+        let as_they_come: Vec<u32> = (0..maps.len() as u32).collect();
+        geometry.shapes.normal_maps = geometry.records(gpu, "normal maps", &maps, &as_they_come)?;
+        geometry.shapes.map_count = maps.len() as u32;
         if let Some(environment) = &from.environment {
             let sky = SkyOnGpu::new(gpu, &table(environment))?;
             geometry.shapes.sky = sky.sky.address;

@@ -16,6 +16,8 @@ mod ground;
 #[allow(dead_code, reason = "45 takes other materials")]
 #[path = "../45_rough_metal/microfacets.rs"]
 mod microfacets;
+#[path = "../47_normal_maps/normal_map.rs"]
+mod normal_map;
 mod panel;
 mod recipe;
 mod report;

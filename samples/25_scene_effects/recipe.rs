@@ -189,7 +189,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
     for kind in recipe.kinds() {
         builder = builder.hit(recipe.hit_group(kind));
     }
-    if recipe.effects.has_any(&[Textures, CutOut, Blended]) {
+    if recipe.effects.has_any(&[Textures, NormalMaps, CutOut, Blended]) {
         builder = builder.textures(textures);
     }
     if can_reorder(gpu) && recipe.divergence().is_ok() {

@@ -14,6 +14,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::albedo::Albedo;
 use crate::ground::Ground;
 use crate::microfacets::{MicrofacetRecord, RoughAddresses};
+use crate::normal_map::NormalMapRecord;
 use crate::shape::HeightfieldShape;
 use crate::sky::{SkyAddresses, SkyRow, Texel};
 
@@ -38,6 +39,10 @@ pub struct Shapes {
     pub glasses: vk::DeviceAddress,
     /// Number of those.
     pub glass_count: u32,
+    /// The address of an array of [`NormalMapRecord`].
+    pub normal_maps: vk::DeviceAddress,
+    /// Number of those.
+    pub map_count: u32,
     /// The address of a [`RoughAddresses`].
     pub rough: vk::DeviceAddress,
     /// The address of a [`SkyAddresses`].
@@ -79,6 +84,7 @@ common::shader_struct! {
         pub segments: Address,
         pub finishes: Address,
         pub glasses: Address,
+        pub normal_maps: Address,
         pub emitters: EmitterAddresses,
         pub plane: Plane,
         pub board: Board,
@@ -100,13 +106,14 @@ common::shader_struct! {
         pub finish_count: u32,
         pub glass_count: u32,
         pub rough_count: u32,
+        pub map_count: u32,
         pub moving: u32,
         pub filtered: u32,
     }
 }
 
 /// Layouts of the structures behind the world's address.
-pub const LAYOUTS: [StructLayout; 25] = [
+pub const LAYOUTS: [StructLayout; 26] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -129,6 +136,7 @@ pub const LAYOUTS: [StructLayout; 25] = [
     RoughAddresses::LAYOUT,
     MicrofacetRecord::LAYOUT,
     Albedo::LAYOUT,
+    NormalMapRecord::LAYOUT,
     SkyAddresses::LAYOUT,
     SkyRow::LAYOUT,
     Texel::LAYOUT,
@@ -167,6 +175,7 @@ impl World {
             segments: shapes.segments.into(),
             finishes: shapes.finishes.into(),
             glasses: shapes.glasses.into(),
+            normal_maps: shapes.normal_maps.into(),
             emitters: shapes.emitters.unwrap_or_else(Zeroable::zeroed),
             plane,
             board: Board::new(&board, &plane),
@@ -189,6 +198,7 @@ impl World {
             finish_count: scene.finishes_to_read().len() as u32,
             glass_count: shapes.glass_count,
             rough_count: shapes.rough_count,
+            map_count: shapes.map_count,
             moving: scene.moving() as u32,
             filtered: scene.filtered.into(),
         }

@@ -8,6 +8,7 @@ mod albedo;
 mod mapped_scene;
 #[path = "../45_rough_metal/microfacets.rs"]
 mod microfacets;
+mod normal_map;
 #[path = "../45_rough_metal/scenes.rs"]
 mod rough_scenes;
 mod scenes;

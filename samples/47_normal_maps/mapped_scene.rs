@@ -2,9 +2,10 @@
 
 use anyhow::Result;
 use common::gpu::{Address, Buffer, Gpu};
-use common::scene::{Material, Scene, SceneOnGpu, SceneOptions, input_usage};
+use common::scene::{Scene, SceneOnGpu, SceneOptions, input_usage};
 
 use super::microfacets::{MicrofacetRecord, RoughAddresses, RoughOnGpu};
+use super::normal_map::NormalMapRecord;
 
 /// The roughness for which each material has its own.
 pub const OWN: f32 = -1.0;
@@ -16,16 +17,6 @@ pub struct Settings {
     pub roughness: f32,
     /// Multiplies the slopes of normal maps.
     pub strength: f32,
-}
-
-common::shader_struct! {
-    /// A material's normal map, in its form for shaders.
-    pub struct NormalMapRecord {
-        /// Index of the texture of normals; -1 for none.
-        pub number: i32,
-        /// Multiplies x and y of its normals.
-        pub scale: f32,
-    }
 }
 
 common::shader_struct! {
@@ -97,14 +88,10 @@ fn records(scene: &Scene, roughness: f32) -> Vec<MicrofacetRecord> {
 
 /// The normal maps of the materials that have microfacets: others are shaded as in 11.
 fn maps(gpu: &Gpu, scene: &Scene, strength: f32) -> Result<Buffer> {
-    let record = |material: &Material| {
-        let texture = material.normal_texture.filter(|_| material.microfacet.is_some());
-        NormalMapRecord {
-            number: texture.map_or(-1, |index| index as i32),
-            scale: material.normal_scale * strength,
-        }
-    };
-    let maps: Vec<_> = scene.model.materials.iter().map(record).collect();
+    let materials = scene.model.materials.iter();
+    let maps: Vec<_> = materials
+        .map(|m| NormalMapRecord::new(Some(m).filter(|m| m.microfacet.is_some()), strength))
+        .collect();
     Buffer::with_data(gpu, "normal maps", &maps, input_usage())
 }
 

@@ -26,22 +26,21 @@ uint chosen(vec2 u) {
     return u.y < found.own ? column : found.other;
 }
 
-// The light of an emitter that a surface sends on, sampled by a shadow ray.
-vec3 asked(Path path, Hit hit, Scatterer by) {
+// The shadow ray to an emitter, with what the surface sends on of its light.
+Sought to_emitter(Path path, Hit hit, Scatterer by, vec3 from) {
+    Sought sought = nothing_sought();
     if (push.world.emitters.column_count == 0 || hit.color == vec3(0.0)) {
-        return vec3(0.0);
+        return sought;
     }
     Emitter emitter = push.world.emitters.emitters.at[chosen(numbers(path, DIMENSION_EMITTER))];
-    // The next ray starts at the same place, or the two chances would not be those of one direction.
-    vec3 from = hit.position + hit.offset * hit.face;
     Aim aim = aim_at(emitter, from, numbers(path, DIMENSION_POINT));
     vec3 part = sent_on(by, hit, aim.direction, aim.angle, emitter.probability);
-    if (part == vec3(0.0) || !is_lit(from, aim.to, 1.0, hit.material == MATERIAL_PLANE)) {
-        return vec3(0.0);
+    if (part == vec3(0.0)) {
+        return sought;
     }
     vec3 radiance = push.scene.materials.at[emitter.material].emission;
 #ifdef EFFECT_GLASS
     radiance *= left_on_way(path.media, length(aim.to));
 #endif
-    return part * radiance;
+    return Sought(aim.to, 1.0, part * radiance);
 }

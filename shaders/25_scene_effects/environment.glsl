@@ -16,21 +16,17 @@ float part_of_sky(Path path, Hit miss) {
 }
 #endif
 
-// The light of the sky that a surface sends on, sampled by a shadow ray.
-vec3 from_sky(Path path, Hit hit, Scatterer by) {
+// The shadow ray to a texel of the sky, likewise.
+Sought to_sky(Path path, Hit hit, Scatterer by) {
+    Sought sought = nothing_sought();
     if (push.world.sky_on == 0 || hit.color == vec3(0.0)) {
-        return vec3(0.0);
+        return sought;
     }
     SkySample found = sky_sample(push.sky, push.world.rotation, numbers(path, DIMENSION_TEXEL),
         numbers(path, DIMENSION_WITHIN));
     if (largest(found.radiance) <= 0.0) {
-        return vec3(0.0);
+        return sought;
     }
-    // The next ray starts at the same place, so that both see the same sky.
-    vec3 from = hit.position + hit.offset * hit.face;
     vec3 part = sent_on(by, hit, found.direction, 1.0, found.density);
-    if (part == vec3(0.0) || !is_lit(from, found.direction, FAR, hit.material == MATERIAL_PLANE)) {
-        return vec3(0.0);
-    }
-    return part * found.radiance;
+    return Sought(found.direction, FAR, part * found.radiance);
 }

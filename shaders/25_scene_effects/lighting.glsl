@@ -52,7 +52,7 @@ float visibility(DiskLight disk, RayOrigin start, Hit hit, vec2 first) {
         vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
         vec3 to_light = towards_disk(disk, start.origin, point);
         // A light below the surface is hidden by the surface itself and needs no ray. On a round surface, up is
-        // the direction of the smooth normal.
+        // the direction of the normal to shade with.
         vec3 up = start.is_offset ? hit.normal : hit.face;
         if (dot(up, to_light) > 0.0
             && is_lit(start.origin, to_light, light_end(disk.light), on_plane)) {

@@ -15,12 +15,15 @@
 #include "lines.glsl"
 #endif
 
-#ifdef EFFECT_TEXTURES
+#if defined(EFFECT_TEXTURES) || defined(EFFECT_NORMAL_MAPS)
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
 #ifdef EFFECT_FILTERED_TEXTURES
 #include "common/footprint.glsl"
 #include "common/lookup.glsl"
+#endif
+#ifdef EFFECT_NORMAL_MAPS
+#include "common/slope.glsl"
 #endif
 
 layout(location = 0) rayPayloadInEXT Hit hit;
@@ -59,6 +62,27 @@ Row row_on(InstanceRecord instance, uint triangle, vec3 face, int index) {
     Axes axes = ellipse(width, gl_WorldRayDirectionEXT, face);
     vec2 size = vec2(textureSize(textures[nonuniformEXT(index)], 0));
     return row_of(on_texture(mapping, axes.a), on_texture(mapping, axes.b), size);
+}
+#endif
+
+#ifdef EFFECT_NORMAL_MAPS
+// The normal that a material's map has in place of `normal`: by the rule *flipped* of chapter 47. One that looks away
+// from where the ray came from is mirrored to that side, and rays that it sends below the triangle come out again by
+// `mirrored` and `kept_above`.
+vec3 mapped_normal(InstanceRecord instance, uint triangle, Surface surface, vec3 normal) {
+    if (instance.material >= push.world.map_count) {
+        return normal;
+    }
+    NormalMapRecord map = push.world.normal_maps.at[instance.material];
+    if (map.number < 0) {
+        return normal;
+    }
+    vec3 slope = slope_at(instance, triangle, surface, map, normal);
+    if (slope == vec3(0.0)) {
+        return normal;
+    }
+    vec3 mapped = normalize(normal + slope);
+    return dot(mapped, gl_WorldRayDirectionEXT) > 0.0 ? reflect(mapped, gl_WorldRayDirectionEXT) : mapped;
 }
 #endif
 
@@ -108,6 +132,9 @@ void main() {
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     hit.normal = faceforward(normal, -at.face, normal);
+#ifdef EFFECT_NORMAL_MAPS
+    hit.normal = mapped_normal(instance, triangle, surface, hit.normal);
+#endif
     hit.material = instance.material;
     hit.color = material.base_color;
 #ifdef EFFECT_TEXTURES

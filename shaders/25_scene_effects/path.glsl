@@ -61,11 +61,8 @@ vec2 numbers(Path path, uint dimension) {
 #include "rough.glsl"
 #endif
 #include "scatterer.glsl"
-#ifdef EFFECT_EMITTERS
-#include "emitters.glsl"
-#endif
-#ifdef EFFECT_ENVIRONMENT
-#include "environment.glsl"
+#ifdef SAMPLED_LIGHT
+#include "sampled_light.glsl"
 #endif
 
 // The material of a hit, without its colour; and its reflectance seen straight on.
@@ -183,11 +180,8 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
 #endif
         hit.color *= reaching;
         material.specular *= reaching;
-#ifdef EFFECT_EMITTERS
-        path.color += asked(path, hit, by);
-#endif
-#ifdef EFFECT_ENVIRONMENT
-        path.color += from_sky(path, hit, by);
+#ifdef SAMPLED_LIGHT
+        add_sampled(path, hit, by);
 #endif
 #ifdef SHADOWS
         RayOrigin start = shadow_start(hit);

@@ -13,6 +13,7 @@
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
 #include "common/rough.glsl"
+#include "common/normal_map.glsl"
 #include "common/sky.glsl"
 #include "common/ray_time.glsl"
 #include "lens.glsl"
@@ -115,6 +116,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Segments segments;
     Finishes finishes;
     Glasses glasses;
+    NormalMaps normal_maps;
     EmitterAddresses emitters;
     Plane plane;
     Board board;
@@ -136,6 +138,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint finish_count;    // of materials, if one in use has a finish; else 0
     uint glass_count;     // of materials, if one in use is glass; else 0
     uint rough_count;     // of materials, if one in use has microfacets; else 0
+    uint map_count;       // of materials, if one in use has a normal map; else 0
     uint moving;          // whether anything moves while the shutter is open
     uint filtered;        // whether textures are averaged over what a pixel sees
 };

@@ -5,15 +5,7 @@
 #include "common/light.glsl"
 #include "common/pixel_sum.glsl"
 #include "common/rough.glsl"
-
-struct NormalMapRecord {
-    int number;               // of its texture; -1 for none
-    float scale;              // multiplies x and y of its normals
-};
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NormalMaps {
-    NormalMapRecord at[];     // of each material
-};
+#include "common/normal_map.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer MappedAddresses {
     RoughAddresses rough;

@@ -39,7 +39,7 @@ pub fn possible(mut set: Effects) -> Effects {
 /// The effects required by an effect: holes, textures and lines are on triangles.
 fn needed_by(effect: Effect) -> &'static [Effect] {
     match effect {
-        Textures | CutOut | Blended | Wireframe => &[Triangles],
+        Textures | NormalMaps | CutOut | Blended | Wireframe => &[Triangles],
         FilteredTextures => &[Triangles, Textures],
         MotionBlur => &[Spheres],
         _ => &[],
@@ -116,6 +116,8 @@ pub fn write(folder: &Path, name: &str, set: Effects, random: &mut Random) -> Pa
         _ => image::Rgba([40, 120, 180, 0]),
     };
     image::RgbaImage::from_fn(16, 16, checks).save(folder.join("checks.png")).unwrap();
+    let dents = |x: u32, y: u32| image::Rgb([(8 + 16 * x) as u8, (8 + 16 * y) as u8, 200]);
+    image::RgbImage::from_fn(16, 16, dents).save(folder.join("dents.png")).unwrap();
     let gauze = |x: u32, y: u32| image::Rgba([255, 255, 255, (8 * (x + y)) as u8]);
     image::RgbaImage::from_fn(16, 16, gauze).save(folder.join("gauze.png")).unwrap();
     let path = folder.join(name).with_extension("toml");
@@ -150,6 +152,9 @@ f 1/1 2/2 3/3 4/4
 o mat
 usemtl scuffed
 f 1/1 2/2 3/3 4/4
+o relief
+usemtl dented
+f 1/1 2/2 3/3 4/4
 ";
 
 const MATERIALS: &str = "newmtl plain
@@ -167,6 +172,12 @@ Pr 0.7
 Pm 0.9
 map_Pr checks.png
 map_Pm checks.png
+newmtl dented
+Kd 0.5 0.6 0.5
+Ks 0.3 0.3 0.3
+Ns 40
+illum 2
+norm dents.png
 newmtl veil
 Kd 0.7 0.3 0.5
 Ks 0 0 0
@@ -254,6 +265,21 @@ fn text(set: Effects, random: &mut Random) -> String {
             n(0.2, 1.0)
         );
     }
+    if has(NormalMaps) {
+        let look = if has(RoughMetal) {
+            "roughness = 0.4\nmetallic = 1\n".to_owned()
+        } else {
+            format!("specular = [0.5, 0.5, 0.5]\nmirror = {mirror}\n")
+        };
+        text += &format!(
+            "[[material]]\nname = \"beaten\"\ncolor = [0.5, 0.6, 0.7]\nnormal_map = \"hammered\"\n\
+             normal_scale = {}\n{look}",
+            n(0.5, 2.5)
+        );
+        if has(Glass) {
+            text += "[[material]]\nname = \"pane\"\nglass = \"thin\"\nnormal_map = \"bevelled\"\n";
+        }
+    }
     if has(RoughMetal) {
         text += &format!(
             "[[material]]\nname = \"brushed\"\ncolor = [{}, 0.7, 0.4]\nroughness = {}\n\
@@ -279,6 +305,9 @@ fn text(set: Effects, random: &mut Random) -> String {
             ("tent", "brushed", has(RoughMetal)),
             ("mat", "", has(RoughMetal) && has(Textures)),
             ("picture", "", has(Textures)),
+            ("relief", "", has(NormalMaps)),
+            ("relief", "beaten", has(NormalMaps)),
+            ("relief", "pane", has(NormalMaps) && has(Glass)),
             ("lattice", "", has(CutOut)),
             ("lattice", "gauze", has(Blended)),
             ("veil", "", has(Blended)),

@@ -6,6 +6,7 @@ mod departures;
 mod generated;
 mod light;
 mod lines;
+mod normals;
 mod plots;
 mod rough;
 mod sky;
@@ -192,7 +193,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         assert_eq!(module["traces"], traces, "{place}: raygen traces every ray");
         assert_eq!(module["reports"], reports, "{place}");
         let textured = path.ends_with("cut_out.rahit")
-            || path.ends_with("mesh.rchit") && effects.has(Textures);
+            || path.ends_with("mesh.rchit") && effects.has_any(&[Textures, NormalMaps]);
         assert_eq!(module["samples"], textured, "{place}: reads textures");
     }
     let groups = &pipeline["groups"];

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error};
 use toml::Value;
 
-use crate::{FOCUS, GlassKind, Pattern};
+use crate::{FOCUS, GlassKind, NORMAL_MAPS, Pattern};
 
 /// The farthest coordinate of a scene file, and the largest strength of a light.
 const FAR: f64 = 1e6;
@@ -106,6 +106,11 @@ pub fn maybe_length<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D
 
 /// A line's width in pixels.
 pub fn maybe_width<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    within(from, 0.0, 20.0).map(Some)
+}
+
+/// A factor of the slopes of a normal map.
+pub fn maybe_steepness<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
     within(from, 0.0, 20.0).map(Some)
 }
 
@@ -288,6 +293,12 @@ pub fn maybe_focus<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D:
 /// An index of refraction.
 pub fn maybe_index<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
     within(from, 0.1, 10.0).map(Some)
+}
+
+/// The normal map of a material, by position in [`NORMAL_MAPS`].
+pub fn maybe_normal_map<'de, D: Deserializer<'de>>(from: D) -> Result<Option<usize>, D::Error> {
+    let maps: Vec<_> = NORMAL_MAPS.iter().copied().zip(0..).collect();
+    word(from, "normal map", &maps).map(Some)
 }
 
 /// The pattern of a material.

@@ -1,5 +1,6 @@
 //! From the tables of a scene file to what is rendered.
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
@@ -19,9 +20,10 @@ use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
 use crate::composition::{close, pinhole};
+use crate::normal_maps::own_map;
 use crate::{
-    Box, Composition, Environment, Finish, MAX_LIGHTS, Node, SKIES, Sphere, Strands, ThinLens,
-    is_blended, is_body, is_glass,
+    Box, Composition, Environment, Finish, MAX_LIGHTS, NORMAL_MAPS, Node, SKIES, Sphere, Strands,
+    ThinLens, is_blended, is_body, is_glass,
 };
 
 /// Pieces, spheres, boxes, solids and materials, each.
@@ -44,7 +46,7 @@ impl Description {
         source.check(&self.solid, MOST, "solids")?;
         source.check(&self.strand, MOST, "strands")?;
         let mut model = self.model(path, source)?;
-        let (materials, finishes) = self.paint(&mut model.materials, source)?;
+        let (materials, finishes) = self.paint(&mut model, source)?;
         let view = self.camera.get_ref();
         let &CameraTable { eye, target, field_of_view, .. } = view;
         if eye.distance(target) < 1e-9 {
@@ -157,14 +159,12 @@ impl Description {
     }
 
     /// Adds and changes materials, and returns the number of each name, and the finishes.
-    fn paint(
-        &self,
-        materials: &mut Vec<Material>,
-        source: &Source,
-    ) -> Result<(Numbers, Vec<Finish>)> {
+    fn paint(&self, model: &mut Model, source: &Source) -> Result<(Numbers, Vec<Finish>)> {
+        let Model { materials, textures, .. } = model;
         let mut finishes: Vec<_> = materials.iter().map(Finish::of).collect();
         let mut numbers = numbers(materials.iter().map(|material| &material.name));
         let mut painted = HashSet::new();
+        let mut maps = HashMap::new();
         for paint in &self.material {
             let name = &paint.get_ref().name;
             if name.is_empty() {
@@ -184,6 +184,17 @@ impl Description {
             let wrong = |what: &'static str| source.error(paint.span().start, what);
             paint.get_ref().check_rough().map_err(wrong)?;
             paint.get_ref().apply(&mut materials[number]);
+            if let Some(map) = paint.get_ref().normal_map {
+                if let Entry::Vacant(unread) = maps.entry(map) {
+                    unread.insert(textures.len());
+                    textures.push(own_map(NORMAL_MAPS[map])?);
+                }
+                materials[number].normal_texture = Some(maps[&map]);
+            }
+            if paint.get_ref().normal_scale.is_some() && materials[number].normal_texture.is_none()
+            {
+                return Err(wrong("`normal_scale` is of a `normal_map`"));
+            }
             let blended = is_blended(&materials[number]).into();
             finishes[number] = Finish { blended, ..paint.get_ref().finish().map_err(wrong)? };
             if is_glass(&materials[number]) {

@@ -163,6 +163,10 @@ pub(super) struct MaterialTable {
     pub(super) roughness: Option<f32>,
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) metallic: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_normal_map")]
+    pub(super) normal_map: Option<usize>,
+    #[serde(default, deserialize_with = "bounded::maybe_steepness")]
+    pub(super) normal_scale: Option<f32>,
     #[serde(default, deserialize_with = "bounded::maybe_glass")]
     pub(super) glass: Option<GlassKind>,
     #[serde(default, deserialize_with = "bounded::maybe_index")]

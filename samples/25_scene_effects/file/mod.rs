@@ -9,6 +9,8 @@ mod nesting;
 mod polytope;
 mod source;
 mod tally;
+#[cfg(test)]
+mod tests;
 mod values;
 mod words;
 
@@ -61,7 +63,14 @@ pub fn open(path: &Path) -> Result<Composition> {
 
 /// Warns of what is not shown, and checks that what shines can be listed.
 fn checked(mut scene: Composition, path: &Path) -> Result<Composition> {
-    let looks = [Look::Mirror, Look::Holes, Look::Transparency, Look::Glass, Look::Microfacet];
+    let looks = [
+        Look::Mirror,
+        Look::Holes,
+        Look::Transparency,
+        Look::Glass,
+        Look::Microfacet,
+        Look::NormalMap,
+    ];
     scene.scene.show_only(&looks, &shown(path).to_string());
     scene.lamps().with_context(|| shown(path))?;
     Ok(scene)

@@ -59,8 +59,8 @@ pub(super) fn opaque(
 ) -> Result<u32> {
     let number = find(model, materials, name, source)?;
     let material = &model.materials[number];
-    let textured = material.base_texture.or(rough_textures(material)).is_some();
-    let textured = textured || material.has_cutout();
+    let texture = material.base_texture.or(material.normal_texture).or(rough_textures(material));
+    let textured = texture.is_some() || material.has_cutout();
     if textured || finishes[number].lines > 0.0 {
         let what = format!(
             "{} has holes, a texture or lines, which only meshes can have",

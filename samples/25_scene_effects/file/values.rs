@@ -64,6 +64,7 @@ impl MaterialTable {
         material.emission = self.emission.unwrap_or(material.emission);
         material.opacity = self.opacity.unwrap_or(material.opacity);
         material.blended = self.blended.unwrap_or(material.blended);
+        material.normal_scale = self.normal_scale.unwrap_or(material.normal_scale);
         if let Some(mirror) = self.mirror {
             material.illumination = if mirror { 3 } else { 2 };
         }

@@ -15,7 +15,7 @@ fn halves(replaced: Option<[&str; 2]>) -> Picture {
         "vec2(id) + 0.5",
     );
     if let Some([from, to]) = replaced {
-        replace_line(folder.path(), "47_normal_maps/tangents.glsl", from, to);
+        replace_line(folder.path(), "common/tangents.glsl", from, to);
     }
     let sets = ["scene=halves", "show=normals"];
     chapter("96x60").sets(&sets).shaders(folder.path()).picture()
@@ -75,7 +75,7 @@ fn a_slope_follows_the_texture_around_the_triangle() {
         list(cases.map(|(sides, ..)| sides)),
         list(cases.map(|(_, steps, _)| steps)),
     );
-    let shown = evaluate("#include \"tangents.glsl\"", &body, "10x1", &[]);
+    let shown = evaluate("#include \"common/tangents.glsl\"", &body, "10x1", &[]);
     for ((sides, steps, expected), pixel) in cases.into_iter().zip(&shown.pixels) {
         if steps == "mat2(1, 0, 0, -1)" && sides == "mat2x3(1, 0, 0, 2, 0, 0)" {
             // A triangle without an area is hit by no ray.
@@ -96,7 +96,7 @@ fn no_texel_gives_a_slope_that_is_no_number() {
         vec3 texel = vec3(values[i % 6], values[i / 6 % 6], values[i / 36]);
         vec2 slope = texel_slope(texel, scales[at.y]);
         answer = vec4(any(isnan(slope)) || any(isinf(slope)) ? 1.0 : 0.0, length(slope), 0.0, 0.0);";
-    let shown = evaluate("#include \"tangents.glsl\"", body, "216x6", &[]);
+    let shown = evaluate("#include \"common/tangents.glsl\"", body, "216x6", &[]);
     assert!(shown.pixels.iter().all(|pixel| pixel[0] == 0.0));
     let most = shown.pixels.iter().map(|pixel| pixel[1]).fold(0.0, f32::max);
     assert!(most > 1.0 && most < 20.001, "{most}");

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use anyhow::{Result, anyhow, bail, ensure};
 use gltf::json::Root;
+use gltf::json::extensions::texture::TextureTransform;
 use serde_json::Value;
 
 /// The first bytes of a GLB file.
@@ -163,6 +164,31 @@ fn key_before(json: &[u8], line: usize, column: usize) -> Option<&str> {
     // A colon within a string does not follow a quote.
     let key = colons.find_map(|before| before.strip_suffix('"'))?;
     key.rsplit('"').next().filter(|key| key.len() < 64)
+}
+
+/// The `KHR_texture_transform` of each material's normal map, which the parser of the whole leaves out.
+pub(super) fn normal_transforms(json: &[u8]) -> Vec<Option<TextureTransform>> {
+    #[derive(serde::Deserialize)]
+    struct Materials {
+        materials: Vec<Material>,
+    }
+    #[derive(serde::Deserialize)]
+    #[serde(rename_all = "camelCase")]
+    struct Material {
+        normal_texture: Option<NormalTexture>,
+    }
+    #[derive(serde::Deserialize)]
+    struct NormalTexture {
+        extensions: Option<Extensions>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Extensions {
+        #[serde(rename = "KHR_texture_transform")]
+        transform: Option<TextureTransform>,
+    }
+    let Ok(Materials { materials }) = serde_json::from_slice(json) else { return Vec::new() };
+    let maps = materials.into_iter().map(|material| material.normal_texture?.extensions);
+    maps.map(|extensions| extensions?.transform).collect()
 }
 
 /// The reason of the parser in our own words, which name what it names.

@@ -5,9 +5,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, ensure};
+use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::{Buffer, Index, Root, buffer};
 
-use super::container::{Parts, other_version, parse};
+use super::container::{Parts, normal_transforms, other_version, parse};
 use super::uri::Uri;
 use crate::model::limits::Limits;
 use crate::model::text::{Folder, read, shown};
@@ -18,6 +19,8 @@ pub(super) struct File {
     pub shown: String,
     /// Its JSON part.
     pub root: Root,
+    /// What is done to the texture coordinates of normal maps, by material.
+    pub normal_transforms: Vec<Option<TextureTransform>>,
     /// The folder that its buffers and images are in.
     pub folder: Folder,
     bytes: Vec<u8>,
@@ -42,13 +45,29 @@ impl File {
         let in_file = |error: anyhow::Error| anyhow!("{shown}: {error}");
         let parts = Parts::of(&bytes).map_err(in_file)?;
         let is_text = parts.json.start < 4;
-        let root = parse(&bytes[parts.json], is_text, limits.memory).map_err(in_file)?;
+        let json = &bytes[parts.json];
+        let root = parse(json, is_text, limits.memory).map_err(in_file)?;
         let version = root.asset.version.as_str();
         ensure!(version.starts_with("2."), "{shown}: {}", other_version(version));
+        let mut maps =
+            root.materials.iter().filter_map(|material| material.normal_texture.as_ref());
+        let is_moved = maps.any(|map| map.extensions.is_some());
+        let normal_transforms = if is_moved { normal_transforms(json) } else { Vec::new() };
         let buffers = root.buffers.iter().map(|_| OnceCell::new()).collect();
         let limits = *limits;
         let elsewhere = RefCell::default();
-        Ok(Self { shown, root, folder, bytes, embedded: parts.buffer, elsewhere, buffers, limits })
+        let embedded = parts.buffer;
+        Ok(Self {
+            shown,
+            root,
+            normal_transforms,
+            folder,
+            bytes,
+            embedded,
+            elsewhere,
+            buffers,
+            limits,
+        })
     }
 
     /// A line about each buffer that was found elsewhere.

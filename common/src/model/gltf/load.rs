@@ -77,8 +77,11 @@ impl<'a> Loading<'a> {
 
         let mut images = Images::new(file, limits);
         let looks = root.materials.iter().enumerate();
-        let looks: Vec<_> =
-            looks.map(|(number, source)| Look::of(source, number, &mut images, features)).collect();
+        let look = |(number, source)| {
+            let moved = file.normal_transforms.get(number).and_then(Option::as_ref);
+            Look::of(source, number, moved, &mut images, features)
+        };
+        let looks: Vec<_> = looks.map(look).collect();
         let textures = images.textures;
         let mut loading =
             Self { file, meshes: Vec::new(), materials: Vec::new(), looks, known: HashMap::new() };

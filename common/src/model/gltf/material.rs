@@ -5,7 +5,8 @@
 
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::extensions::material::Volume;
-use gltf::json::material::{AlphaMode, Material as Source};
+use gltf::json::extensions::texture::TextureTransform;
+use gltf::json::material::{AlphaMode, Material as Source, NormalTexture};
 use gltf::json::texture::Info;
 use gltf::json::validation::Checked;
 
@@ -36,7 +37,7 @@ const SHEET: u32 = 4;
 const BODY: u32 = 7;
 
 /// The texture coordinates that a material reads: a set of the mesh, and what is done to it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Coordinates {
     /// The number of the set.
     pub set: u32,
@@ -66,11 +67,15 @@ impl Coordinates {
     /// Those of a texture (`KHR_texture_transform`).
     fn of_texture(info: &Info) -> Self {
         let transform = info.extensions.as_ref().and_then(|all| all.texture_transform.as_ref());
+        Self::of_set(info.tex_coord, transform)
+    }
+
+    fn of_set(set: u32, transform: Option<&TextureTransform>) -> Self {
         let Some(transform) = transform else {
-            return Self { set: info.tex_coord, is_read: true, ..Self::default() };
+            return Self { set, is_read: true, ..Self::default() };
         };
         Self {
-            set: transform.tex_coord.unwrap_or(info.tex_coord),
+            set: transform.tex_coord.unwrap_or(set),
             is_read: true,
             are_of_normals: false,
             offset: Vec2::from(transform.offset.0),
@@ -114,10 +119,11 @@ impl Look {
         Self { material, ..Self::default() }
     }
 
-    /// Material `number` of a file.
+    /// Material `number` of a file; `moved` is what is done to the texture coordinates of its normal map.
     pub fn of(
         source: &Source,
         number: usize,
+        moved: Option<&TextureTransform>,
         images: &mut Images,
         features: &mut Features,
     ) -> Self {
@@ -166,11 +172,28 @@ impl Look {
             look.coordinates =
                 source.emissive_texture.as_ref().map_or(look.coordinates, Coordinates::of_texture);
         }
-        set_normals(&mut material, &mut look.coordinates, source, images, features, &place());
+        if let Some(map) = &source.normal_texture {
+            let coordinates = Coordinates::of_set(map.tex_coord, moved);
+            if set_normals(&mut material, map, images, features, &place()) {
+                look.share(coordinates, features, &place());
+            }
+        }
         if source.extensions.as_ref().is_some_and(|all| all.unlit.is_some()) {
             features.note("unlit", 1, || format!("{} is unlit; it is shown in light", place()));
         }
         Self { material, ..look }
+    }
+
+    /// Lets a normal map read the coordinates of the other textures; without another texture, its own are the
+    /// material's.
+    fn share(&mut self, own: Coordinates, features: &mut Features, place: &str) {
+        if !self.coordinates.is_read {
+            self.coordinates = Coordinates { are_of_normals: true, ..own };
+        } else if self.coordinates != own {
+            features.note("normal", 1, || {
+                format!("{place} has a normal map with texture coordinates of its own; those of its colour count")
+            });
+        }
     }
 }
 
@@ -253,28 +276,16 @@ fn set_alpha(
     }
 }
 
-/// The normal map; without another texture, its coordinates are the material's.
+/// The normal map. Returns true if it can be read.
 fn set_normals(
     material: &mut Material,
-    coordinates: &mut Coordinates,
-    source: &Source,
+    map: &NormalTexture,
     images: &mut Images,
     features: &mut Features,
     place: &str,
-) {
-    let Some(map) = &source.normal_texture else { return };
+) -> bool {
     let texture = images.texture(map.index, Use::Normals, features);
-    let Some(texture) = texture else { return };
-    let set = map.tex_coord;
-    if !coordinates.is_read {
-        *coordinates =
-            Coordinates { set, is_read: true, are_of_normals: true, ..Coordinates::default() };
-    } else if coordinates.set != set {
-        features.note("normal", 1, || {
-            format!("{place} has a normal map with texture coordinates of its own; those of its colour count")
-        });
-    }
-    material.normal_texture = Some(texture.index);
+    material.normal_texture = texture.map(|texture| texture.index);
     let (scale, most) = (map.scale, BUMPIEST);
     if !(scale.abs() <= most) {
         features.note("bumps", 1, || {
@@ -282,6 +293,7 @@ fn set_normals(
         });
     }
     material.normal_scale = if scale.is_nan() { 1.0 } else { scale.clamp(-most, most) };
+    material.normal_texture.is_some()
 }
 
 /// Glass: a sheet by `KHR_materials_transmission`, a body if it has a volume.

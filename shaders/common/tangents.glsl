@@ -1,5 +1,7 @@
+// Taught by 47_normal_maps.
+//
 // The normal that a texture writes down, in the frame of a triangle's texture coordinates.
-#include "common/surface.glsl"
+#include "surface.glsl"
 
 // The steepest slope, about 87 degrees: beyond, the mapped normal would point along the surface, or into it.
 const float STEEPEST = 20.0;
@@ -40,9 +42,3 @@ mat2x3 texture_axes(mat2x3 sides, mat2 steps, vec3 normal) {
     return mat2x3(right, dot(across, up) < 0.0 ? -across : across);
 }
 // ANCHOR_END: axes
-
-// The slope of a texel, in the frame of the normal to shade with. Seen from behind, bumps are dents.
-vec2 mapped_slope(vec2 slope, mat2x3 axes, mat3 frame, bool is_behind) {
-    vec3 aside = slope.x * axes[0] + slope.y * axes[1];
-    return (aside * frame).xy * (is_behind ? -1.0 : 1.0);
-}
