@@ -92,16 +92,16 @@ pub fn slope_and_wall() -> String {
     let mirrored = |ray: DVec2, normal: DVec2| ray - 2.0 * ray.dot(normal) * normal;
 
     let hit = DVec2::new(200.0, 170.0);
-    s.polygon(&[[40.0, 170.0], [360.0, 170.0], [360.0, 232.0], [40.0, 232.0]], BLUE, LINE);
+    s.polygon(&[[40.0, 170.0], [360.0, 170.0], [360.0, 260.0], [40.0, 260.0]], BLUE, LINE);
     for x in [80.0, 140.0, 200.0, 260.0, 320.0] {
         let from = DVec2::new(x, 170.0);
         s.line(&[point(from), point(from + 42.0 * slope)], SEA, 2.0);
     }
     s.arrow(&[point(hit - 130.0 * coming), point(hit)]);
     let down = mirrored(coming, slope);
-    s.line(&[point(hit), point(hit + 96.0 * down)], RED, 2.0);
-    s.note([236.0, 222.0], Start, "its mirrored ray");
-    s.say([200.0, 264.0], Middle, "painted: the ray goes below the surface");
+    s.line(&[point(hit), point(hit + 110.0 * down)], RED, 2.0);
+    s.note([236.0, 228.0], Start, "its mirrored ray");
+    s.say([200.0, 284.0], Middle, "painted: the ray goes below the surface");
 
     let (left, top, width) = (440.0, 150.0, 120.0);
     let height = width * tilt.tan();

@@ -57,7 +57,15 @@ fn rows_come_from_the_top_and_alpha_is_kept() {
     let name = "my tex/t 1.png".to_owned();
     assert_eq!(
         textures,
-        [Texture { name, width: 2, height: 2, rgba, srgb: true, sampling: Sampling::default() }]
+        [Texture {
+            name,
+            width: 2,
+            height: 2,
+            rgba,
+            srgb: true,
+            slopes: false,
+            sampling: Sampling::default()
+        }]
     );
     assert_eq!(materials[0].base_texture, Some(0));
     assert_eq!(materials[0].base_color, glam::Vec3::ONE);
