@@ -4,7 +4,9 @@ use anyhow::Result;
 use ash::vk;
 use common::UsageError;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
-use common::scene::{Scene, SceneOnGpu, SceneOptions, input_usage, instance_bytes, instance_on_gpu};
+use common::scene::{
+    Scene, SceneOnGpu, SceneOptions, input_usage, instance_bytes, instance_on_gpu,
+};
 use glam::Affine3A;
 
 use super::moving::moving;

@@ -14,10 +14,12 @@ use std::process::ExitCode;
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{
-    Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
-    barrier,
+    Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
+    TextureTable, barrier,
 };
-use common::scene::{Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, Sun, input_usage};
+use common::scene::{
+    Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, Sun, input_usage,
+};
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use glam::{Affine3A, UVec2};
 use levels::Levels;
@@ -47,7 +49,9 @@ struct Demo {
     pipelines: Variants<Constants>,
     passes: Passes,
     back: Buffer,
+    /// The last complete frame, and the one whose rays are traced.
     done: Option<Done>,
+    next: Option<Done>,
     playback: Playback,
     motion: Motion,
     camera: Camera,
@@ -89,7 +93,7 @@ struct Valid {
     size: UVec2,
 }
 
-/// The last complete frame.
+/// A frame, as far as the next one needs to know it.
 struct Done {
     valid: Valid,
     camera: CameraBasis,
@@ -133,6 +137,7 @@ impl Sample for Demo {
             passes: Passes::default(),
             back: Buffer::new(gpu, "back", size_of::<Back>() as u64, usage)?,
             done: None,
+            next: None,
             playback: Playback::new(LAST),
             motion: Motion::All,
             camera,
@@ -218,27 +223,35 @@ impl Sample for Demo {
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
-        let is_last_band = frame.area.extent.width == extent.width
-            && frame.area.offset.y as u32 + frame.area.extent.height == extent.height;
-        if !is_last_band {
-            return Ok(());
-        }
-        let piece = *self.levels.placed();
-        if let Some(last) = last {
-            self.back.update(frame.cmd, &[Back::new(&piece, &last.piece)])?;
+        self.next = Some(Done { valid, camera, piece: *self.levels.placed(), frame: number, age });
+        Ok(())
+    }
+
+    fn passes(&self) -> u32 {
+        passes::count(self.filters)
+    }
+
+    fn pass(&mut self, frame: &Frame, number: u32) -> Result<()> {
+        let Some(now) = &self.next else { return Ok(()) };
+        let last = self.done.as_ref().filter(|done| done.goes_on_to(&now.valid, now.frame));
+        if let (0, Some(last)) = (number, last) {
+            self.back.update(frame.cmd, &[Back::new(&now.piece, &last.piece)])?;
         }
         let given = Given {
             levels: &self.levels,
-            camera,
-            before: last.map_or(camera, |last| last.camera),
+            pixels: &self.pixels,
+            camera: now.camera,
+            before: last.map_or(now.camera, |last| last.camera),
             back: self.back.address.into(),
             tests: self.tests,
             memory: if last.is_some() && self.history { self.memory } else { 1 },
             filters: self.filters,
         };
-        self.passes.record(frame, &self.pixels, &given)?;
-        self.pixels.swap();
-        self.done = Some(Done { valid, camera, piece, frame: number, age });
+        self.passes.record(frame, number, &given)?;
+        if number + 1 == self.passes() {
+            self.pixels.swap();
+            self.done = self.next.take();
+        }
         Ok(())
     }
 

@@ -1,9 +1,7 @@
 //! The passes after the trace: history, variance, filter, composition.
 
 use anyhow::Result;
-use common::gpu::{
-    Address, Binding, ComputePipeline, Descriptor, Gpu, TextureTable, barrier,
-};
+use common::gpu::{Address, Binding, ComputePipeline, Descriptor, Gpu, TextureTable, barrier};
 use common::scene::{CameraBasis, SceneAddresses};
 use common::{Frame, Variant, Variants};
 use glam::Vec3;
@@ -83,6 +81,7 @@ common::shader_struct! {
 /// What the passes are given besides the pixels.
 pub struct Given<'a> {
     pub levels: &'a Levels,
+    pub pixels: &'a Pixels,
     pub camera: CameraBasis,
     /// The camera of the last frame.
     pub before: CameraBasis,
@@ -103,55 +102,66 @@ pub struct Passes {
     compose: Variants<Show, ComputePipeline>,
 }
 
+/// Number of passes, with so many of the filter.
+pub fn count(filters: u32) -> u32 {
+    3 + filters
+}
+
 impl Passes {
-    /// Records the passes of a frame whose rays are recorded, each behind a barrier.
+    /// Records a pass: the history, the variance, so many of the filter, and the composition.
     ///
     /// # Errors
-    /// If a pipeline cannot be built.
-    pub fn record(&mut self, frame: &Frame, pixels: &Pixels, given: &Given) -> Result<()> {
-        let Frame { gpu, cmd, .. } = *frame;
-        let (scene, addresses) = (&given.levels.scene, pixels.addresses());
+    /// If its pipeline cannot be built.
+    pub fn record(&mut self, frame: &Frame, number: u32, given: &Given) -> Result<()> {
+        let (scene, memory) = (&given.levels.scene, given.memory);
+        let (textures, pixels) = (&scene.textures, given.pixels.addresses());
+        let apart = 2.0 * given.camera.right.length() / given.pixels.size.x as f32;
+        let eye = Eye { origin: given.camera.origin, apart };
+        // Variance and filter go to the one and to the other in turns.
+        let for_filter = given.pixels.for_filter();
+        let between = |number: u32| for_filter[number as usize % 2];
         let picture = [Descriptor::StorageImage(frame.image)];
         // ANCHOR: passes
-        barrier::trace_to_trace(gpu, cmd);
-        let history = History {
-            camera: given.before,
-            pixels: addresses,
-            back: given.back,
-            moving: given.levels.moving as u32,
-            memory: given.memory,
-            rounding: given.levels.rounding,
-        };
-        let Variant { pipeline, .. } =
-            self.history.choose(frame, &scene.textures, given.tests, history_pass)?;
-        pipeline.bind(cmd, &picture, &history)?;
-        pipeline.dispatch(cmd, pixels.area());
-
-        // The last frame's estimates are no longer needed: the filter goes from there to the spare and back.
-        let apart = 2.0 * given.camera.right.length() / pixels.size.x as f32;
-        let eye = Eye { origin: given.camera.origin, apart };
-        let [mut to, mut from] = pixels.for_filter();
-        barrier::pass_to_pass(gpu, cmd);
-        let Variant { pipeline, .. } =
-            self.variance.choose(frame, &scene.textures, (), variance_pass)?;
-        pipeline.bind(cmd, &[], &Variance { eye, pixels: addresses, to })?;
-        pipeline.dispatch(cmd, pixels.area());
-        for pass in 0..given.filters {
-            (from, to) = (to, from);
-            barrier::pass_to_pass(gpu, cmd);
+        // What the pass before has written is now visible.
+        barrier::trace_to_trace(frame.gpu, frame.cmd);
+        if number == 0 {
+            let history = History {
+                camera: given.before,
+                pixels,
+                back: given.back,
+                moving: given.levels.moving as u32,
+                memory,
+                rounding: given.levels.rounding,
+            };
             let Variant { pipeline, .. } =
-                self.filter.choose(frame, &scene.textures, (), filter_pass)?;
-            let filter = Filter { eye, pixels: addresses, from, to, apart: 1 << pass };
-            pipeline.bind(cmd, &[], &filter)?;
-            pipeline.dispatch(cmd, pixels.area());
+                self.history.choose(frame, textures, given.tests, history_pass)?;
+            pipeline.bind(frame.cmd, &picture, &history)?;
+            pipeline.dispatch(frame.cmd, frame.area);
+        } else if number == 1 {
+            let Variant { pipeline, .. } =
+                self.variance.choose(frame, textures, (), variance_pass)?;
+            pipeline.bind(frame.cmd, &[], &Variance { eye, pixels, to: between(0) })?;
+            pipeline.dispatch(frame.cmd, frame.area);
+        } else if number < 2 + given.filters {
+            let pass = number - 2;
+            let filter = Filter {
+                eye,
+                pixels,
+                from: between(pass),
+                to: between(pass + 1),
+                apart: 1 << pass,
+            };
+            let Variant { pipeline, .. } = self.filter.choose(frame, textures, (), filter_pass)?;
+            pipeline.bind(frame.cmd, &[], &filter)?;
+            pipeline.dispatch(frame.cmd, frame.area);
+        } else {
+            let from = between(given.filters);
+            let Variant { pipeline, .. } =
+                self.compose.choose(frame, textures, given.tests.show, compose_pass)?;
+            let compose = Compose { scene: scene.addresses, pixels, from, memory };
+            pipeline.bind(frame.cmd, &picture, &compose)?;
+            pipeline.dispatch(frame.cmd, frame.area);
         }
-
-        barrier::pass_to_pass(gpu, cmd);
-        let Variant { pipeline, .. } =
-            self.compose.choose(frame, &scene.textures, given.tests.show, compose_pass)?;
-        let (scene, memory) = (scene.addresses, given.memory);
-        pipeline.bind(cmd, &picture, &Compose { scene, pixels: addresses, from: to, memory })?;
-        pipeline.dispatch(cmd, pixels.area());
         // ANCHOR_END: passes
         Ok(())
     }

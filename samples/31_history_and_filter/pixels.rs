@@ -1,7 +1,6 @@
 //! The state of every pixel, from frame to frame.
 
 use anyhow::Result;
-use ash::vk;
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::input_usage;
 use glam::{UVec2, Vec3};
@@ -100,11 +99,5 @@ impl Pixels {
     /// This frame's buffers become the last one's.
     pub fn swap(&mut self) {
         self.is_odd = !self.is_odd;
-    }
-
-    /// All pixels, for a dispatch.
-    pub fn area(&self) -> vk::Rect2D {
-        let extent = vk::Extent2D { width: self.size.x, height: self.size.y };
-        vk::Rect2D { extent, ..Default::default() }
     }
 }
