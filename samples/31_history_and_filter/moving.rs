@@ -13,9 +13,9 @@ common::shader_enum! {
 /// Degrees per frame that the camera turns around its target.
 const CAMERA: f64 = 0.25;
 /// Degrees per frame that the sun turns around the vertical.
-const SUN: f64 = 0.5;
-/// Frames in which the piece goes one square ahead and comes back.
-const PERIOD: f64 = 96.0;
+const SUN: f64 = 0.25;
+/// Frames in which the piece goes one square ahead; then it rests for as many, comes back, and rests again.
+const WAY: u32 = 48;
 
 impl Motion {
     /// The camera at a frame.
@@ -36,13 +36,13 @@ impl Motion {
         Sun { azimuth: azimuth.rem_euclid(360.0) as f32, ..*sun }
     }
 
-    /// The transform of the moving piece at a frame; `home` is where it starts. It goes ahead by a square, turns
-    /// half around meanwhile, and returns.
+    /// The transform of the moving piece at a frame; `home` is where it starts. On its way of a square it turns half
+    /// around.
     pub fn piece(self, home: &Affine3A, frame: u32) -> Affine3A {
         if !matches!(self, Self::Piece | Self::All) {
             return *home;
         }
-        let part = 0.5 - 0.5 * (TAU * f64::from(frame) / PERIOD).cos();
+        let part = part(frame);
         let turn = DMat3::from_rotation_y(part * 0.5 * TAU);
         let home = in_64_bits(home);
         let moved = DAffine3 {
@@ -50,6 +50,18 @@ impl Motion {
             translation: home.translation + part * DVec3::Z,
         };
         in_32_bits(&moved)
+    }
+}
+
+/// The part of its way that the piece has gone.
+fn part(frame: u32) -> f64 {
+    let (leg, step) = (frame / WAY % 4, f64::from(frame % WAY) / f64::from(WAY));
+    let smooth = 0.5 - 0.5 * (0.5 * TAU * step).cos();
+    match leg {
+        0 => smooth,
+        1 => 1.0,
+        2 => 1.0 - smooth,
+        _ => 0.0,
     }
 }
 

@@ -7,7 +7,9 @@ struct Eye {
 };
 
 // The distance from the other's plane is compared with the distance of the pixels' rays, and the cosine between
-// the normals is raised to the power of 128 (Schied and others 2017). The weight is the same if the two change places, to the bit.
+// the normals is raised to a power, 16, which of the powers of two had the least error on the pieces of this scene
+// among those that keep their creases (Schied and others 2017 take 128, for larger pictures). The weight is the same
+// if the two change places, to the bit.
 float alike(Eye eye, Seen a, Seen b, float pixels) {
     if (instance_of(a) == NOTHING || instance_of(b) == NOTHING) {
         return 0.0;
@@ -18,7 +20,7 @@ float alike(Eye eye, Seen a, Seen b, float pixels) {
     float off = abs(dot(normal_a, between)) + abs(dot(normal_b, between));
     float distance = 0.5 * (length(a.position - eye.origin) + length(b.position - eye.origin));
     float cosine = max(dot(normal_a, normal_b), 0.0);
-    for (uint i = 0; i < 7; i++) {
+    for (uint i = 0; i < 4; i++) {
         cosine *= cosine;
     }
     return exp(-off / (pixels * eye.apart * distance)) * cosine;

@@ -41,9 +41,11 @@ void main() {
             Estimate there = push.from.at[other];
             float weight = KERNEL[abs(x)] * KERNEL[abs(y)]
                 * alike(push.eye, here, push.pixels.surfaces.at[other], float(push.apart) * length(vec2(x, y)));
-            // How likely it is that noise alone makes the difference: its variance is the sum of both.
+            // The variance of the difference is the sum of both. The scale is three standard deviations: noise seldom
+            // makes a larger difference, so that one is an edge.
             float difference = luminance(there.light) - luminance(center.light);
-            weight *= exp(-0.5 * difference * difference / max(center.square + there.square, 1e-20));
+            float scale = max(9.0 * (center.square + there.square), 1e-20);
+            weight *= exp(-0.5 * difference * difference / scale);
             moved += weight * (there.light - center.light);
             variance += weight * weight * there.square;
             left -= weight;
