@@ -7,9 +7,8 @@ struct Eye {
 };
 
 // The distance from the other's plane is compared with the distance of the pixels' rays, and the cosine between
-// the normals is raised to a power, 16, which of the powers of two had the least error on the pieces of this scene
-// among those that keep their creases (Schied and others 2017 take 128, for larger pictures). The weight is the same
-// if the two change places, to the bit.
+// the normals is raised to the power of 16. (Schied and others 2017 take 128, for larger pictures, where neighbours
+// on a round piece differ less.) The weight is the same if the two change places, to the bit.
 float alike(Eye eye, Seen a, Seen b, float pixels) {
     if (instance_of(a) == NOTHING || instance_of(b) == NOTHING) {
         return 0.0;

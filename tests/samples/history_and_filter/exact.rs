@@ -5,15 +5,18 @@ use std::fs;
 use tempfile::TempDir;
 
 use super::{NAME, SIZE, chapter, colors, error, mean, reference};
-use run::Chapter;
+use run::{Chapter, shaders_with};
 
+/// Every path brings the same light, whose colours are no round numbers. Everything moves.
 #[test]
-fn white_stays_white_to_the_bit() {
-    // Without roulette each path in a white furnace brings exactly 1.
-    let sets = ["scene=furnace", "roulette=off", "depth=256"];
-    let picture = chapter().sets(&sets).frames(12).picture();
+fn constant_light_stays_constant_to_the_bit() {
+    let traced = "float brightness = luminance(path.color);";
+    let constant = format!("path.color = vec3(0.3, 0.7, 1.1);\n    {traced}");
+    let shaders = shaders_with(&format!("{NAME}/camera.rgen"), traced, &constant);
+    let moving = chapter().shaders(shaders.path()).sets(&["show=light", "depth=0"]);
+    let picture = moving.frames(24).picture();
     for (at, pixel) in picture.pixels.iter().enumerate() {
-        assert_eq!(pixel[..3], [1.0; 3], "pixel {at}");
+        assert_eq!(pixel[..3], [0.3, 0.7, 1.1], "pixel {at}");
     }
 }
 

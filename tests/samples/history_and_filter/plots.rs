@@ -39,7 +39,10 @@ fn equal_time() {
             let settled = moving().set("memory", 255).frames(frames).picture();
             let sampled = reference(moving(), frames - 1, samples);
             let errors = [&settled, &sampled].map(|picture| error(picture, &truth));
-            println!("{motion}, {frames} frames: {:.4}, {samples} samples: {:.4}", errors[0], errors[1]);
+            println!(
+                "{motion}, {frames} frames: {:.4}, {samples} samples: {:.4}",
+                errors[0], errors[1]
+            );
             both.push([f64::from(frames), errors[0]]);
             plain.push([f64::from(frames), errors[1]]);
             held.insert(format!("{motion}.{frames}.both"), json!(errors[0]));
@@ -50,7 +53,8 @@ fn equal_time() {
     expected::give_timed("31_history_and_filter/equal_time", held.into());
     let errors = [0.02, 0.05, 0.1, 0.2, 0.5];
     let charts = charts.map(|(motion, both, plain)| {
-        let series = |name, points| Series { name, points, line: true, dots: true, ..Series::default() };
+        let series =
+            |name, points| Series { name, points, line: true, dots: true, ..Series::default() };
         Chart {
             title: if motion == "still" { "nothing moves" } else { "everything moves" },
             x: Axis { label: "frames", ticks: &ticks, logarithmic: true },
