@@ -6,7 +6,7 @@ use serde_json::{Map, json};
 
 use super::{NAME, PLAIN, colors, error, mean, reference};
 
-const SIZE: &str = "160x100";
+const SIZE: &str = "96x64";
 const FRAME: u32 = 39;
 const SAMPLES: u32 = 1024;
 
@@ -48,13 +48,13 @@ fn errors_without_each_part() {
 
 /// The bias of the filter is what the mean of many filtered pictures is off by.
 #[test]
-#[ignore = "by hand: 64 pictures, and a reference of 1,024 samples per pixel"]
+#[ignore = "by hand: 32 pictures, and a reference of 1,024 samples per pixel"]
 fn the_bias_of_the_filter() {
     let still = || chapter().set("motion", "still");
     let truth: Vec<f64> = colors(&reference(still(), 0, SAMPLES)).collect();
     let mut held = Map::new();
     for (name, sets, frames) in [("one", "history=off", 1), ("sixteen", "memory=255", 16)] {
-        let count = 64;
+        let count = 32;
         let mut sums = vec![[0.0; 2]; truth.len()];
         for seed in 0..count {
             // With seeds other than the reference's.

@@ -8,7 +8,7 @@ use serde_json::{Map, json};
 use super::{PLAIN, chapter, error, reference};
 
 const FRAMES: [u32; 5] = [1, 2, 4, 8, 16];
-const SAMPLES: u32 = 512;
+const SAMPLES: u32 = 256;
 
 /// The time of a frame with history and filter, relative to a plain one.
 fn price() -> f64 {
