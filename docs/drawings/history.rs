@@ -1,6 +1,6 @@
 //! The place of a surface in the last frame's picture, seen from above.
 
-use crate::sheet::Anchor::{Middle, Start};
+use crate::sheet::Anchor::Start;
 use crate::sheet::{BLUE, FAINT, LEAF, LINE, Point, RED, SEA, Sheet, WHITE, YOURS};
 
 /// The distance of the picture below the wall, and of the eye.
@@ -48,7 +48,8 @@ impl Frame {
         s.circle(self.piece, RADIUS, BLUE, LINE);
         for pixel in 0..COUNT {
             let [a, b] = [0.0, 1.0].map(|side| self.on_picture(f64::from(pixel) + side));
-            let corners = [[a[0], a[1] - 6.0], [b[0], b[1] - 6.0], [b[0], b[1] + 6.0], [a[0], a[1] + 6.0]];
+            let corners =
+                [[a[0], a[1] - 6.0], [b[0], b[1] - 6.0], [b[0], b[1] + 6.0], [a[0], a[1] + 6.0]];
             s.polygon(&corners, WHITE, LINE);
         }
         s.dot([self.eye, EYE], 5.0, LINE);
@@ -58,7 +59,8 @@ impl Frame {
     /// Fills a pixel of the picture.
     fn fill(&self, s: &mut Sheet, pixel: f64, color: &str) {
         let [a, b] = [0.0, 1.0].map(|side| self.on_picture(pixel.floor() + side));
-        let corners = [[a[0], a[1] - 6.0], [b[0], b[1] - 6.0], [b[0], b[1] + 6.0], [a[0], a[1] + 6.0]];
+        let corners =
+            [[a[0], a[1] - 6.0], [b[0], b[1] - 6.0], [b[0], b[1] + 6.0], [a[0], a[1] + 6.0]];
         s.polygon(&corners, color, LINE);
     }
 }
@@ -66,14 +68,14 @@ impl Frame {
 /// A hit of this frame, the same point of the piece in the last frame, and the pixels around it there.
 pub fn reprojection() -> String {
     let mut s = Sheet::new([840, 392], "Where was this point in the last frame?");
-    let now = Frame { eye: 640.0, piece: [690.0, 170.0] };
-    let last = Frame { eye: 215.0, piece: [190.0, 170.0] };
+    let now = Frame { eye: 640.0, piece: [680.0, 170.0] };
+    let last = Frame { eye: 215.0, piece: [168.0, 170.0] };
     s.title([24.0, 66.0], Start, "last frame");
     s.title([440.0, 66.0], Start, "this frame");
     last.draw(&mut s, 24.0);
     now.draw(&mut s, 440.0);
 
-    let pixel = 6.5;
+    let pixel = 5.5;
     let (point, _) = now.hit(pixel);
     now.fill(&mut s, pixel, YOURS);
     s.line(&[[now.eye, EYE], point], SEA, 2.0);
@@ -93,15 +95,15 @@ pub fn reprojection() -> String {
     s.dot(then, 5.0, SEA);
     s.dashed_arrow(&[
         [point[0] - 8.0, point[1] - 2.0],
-        [0.5 * (point[0] + then[0]), WALL + 26.0],
+        [0.5 * (point[0] + then[0]), WALL + 22.0],
         [then[0] + 10.0, then[1] - 2.0],
     ]);
     s.line(&[[412.0, 56.0], [412.0, 340.0]], FAINT, 1.2);
-    s.note([412.0, WALL + 16.0], Middle, "back with the piece");
+    s.note([510.0, WALL + 40.0], Start, "back with the piece");
     s.note(
         [24.0, 368.0],
         Start,
-        "The hit goes back with its piece, then to the last camera. It is between two pixels: green saw the piece and counts, red saw the wall.",
+        "Green: a pixel that saw the piece, and counts. Red: one that saw the wall behind.",
     );
     s.svg()
 }
