@@ -7,6 +7,7 @@ mod calls;
 mod cones;
 mod floats;
 mod frame;
+mod history;
 mod lens;
 mod lights;
 mod march;
@@ -55,6 +56,7 @@ const DRAWINGS: &[Drawing] = &[
     ("penumbra", shadows::penumbra),
     ("primitive_order", orders::quarters),
     ("refit", structures::refit),
+    ("reprojection", history::reprojection),
     ("shadow_lift", shadows::lift),
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),

@@ -38,6 +38,7 @@ golden! {
     foundation,
     geometries,
     heightfield,
+    history_and_filter,
     infinite_plane,
     instancing,
     intersection,

@@ -19,6 +19,7 @@ mod glass;
 mod gltf;
 mod golden;
 mod heightfield;
+mod history_and_filter;
 mod infinite_plane;
 mod instancing;
 mod intersection;

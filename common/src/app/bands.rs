@@ -99,25 +99,36 @@ impl Bands {
     ) -> Result<Option<f64>> {
         let Some(area) = self.next() else { return Ok(None) };
         let first_band = area.offset.y == 0;
-        gpu.submit(|cmd| {
-            timer.start(cmd);
-            sample.render(&Frame {
-                gpu,
-                cmd,
-                image,
-                area,
-                index,
-                accumulated,
-                first_band,
-                background,
+        let submit = |area, record: &mut dyn FnMut(&Frame) -> Result<()>| {
+            gpu.submit(|cmd| {
+                timer.start(cmd);
+                record(&Frame {
+                    gpu,
+                    cmd,
+                    image,
+                    area,
+                    index,
+                    accumulated,
+                    first_band,
+                    background,
+                })?;
+                timer.stop(cmd);
+                barrier::trace_to_trace(gpu, cmd);
+                Ok(())
             })?;
-            timer.stop(cmd);
-            barrier::trace_to_trace(gpu, cmd);
-            Ok(())
-        })?;
-        let milliseconds = timer.milliseconds()?;
+            timer.milliseconds()
+        };
+        let mut milliseconds = submit(area, &mut |frame| sample.render(frame))?;
         tracing::trace!("{} rows: {milliseconds:.1} ms", area.extent.height);
         self.took(area, milliseconds);
+        // Passes are no bands: a row that is traced costs what it did.
+        let passes = if self.row == self.extent.height { sample.passes() } else { 0 };
+        let whole = vk::Rect2D { extent: self.extent, ..Default::default() };
+        for number in 0..passes {
+            let took = submit(whole, &mut |frame| sample.pass(frame, number))?;
+            self.times.push(took);
+            milliseconds += took;
+        }
         Ok(Some(milliseconds))
     }
 }

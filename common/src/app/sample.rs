@@ -49,6 +49,20 @@ pub trait Sample: 'static {
     /// If something is missing and cannot be made.
     fn render(&mut self, frame: &Frame) -> Result<()>;
 
+    /// Number of passes over the whole picture that follow its last band.
+    fn passes(&self) -> u32 {
+        0
+    }
+
+    /// Records one of these passes into `frame.cmd`. Each is a submission of its own, after everything that bands and
+    /// earlier passes wrote.
+    ///
+    /// # Errors
+    /// If something is missing and cannot be made.
+    fn pass(&mut self, _frame: &Frame, _number: u32) -> Result<()> {
+        Ok(())
+    }
+
     /// True if further frames of an unchanged view improve the picture, as with accumulation.
     ///
     /// Otherwise an idle window renders nothing.
