@@ -13,7 +13,7 @@ common::shader_enum! {
 /// Degrees per frame that the camera turns around its target.
 const CAMERA: f64 = 0.25;
 /// Degrees per frame that the sun turns around the vertical.
-const SUN: f64 = 0.25;
+const SUN: f64 = 0.08;
 /// Frames in which the piece goes one square ahead; then it rests for as many, comes back, and rests again.
 const WAY: u32 = 48;
 

@@ -105,7 +105,9 @@ fn apply(to_all: &mut [Known], from: Use, to: Use) {
             known.seen_by.push(to);
         }
         for (reader, waiting) in &mut known.read {
-            if from.0.contains(*reader) {
+            // A stage also waits if it waits for one that waits (Vulkan specification, "Execution and Memory
+            // Dependencies": a dependency chain).
+            if from.0.contains(*reader) || from.0.intersects(*waiting) {
                 *waiting |= to.0;
             }
         }
