@@ -88,10 +88,13 @@ pub unsafe extern "system" fn build(
     if own.iter().any(|info| !locked(&NEW).contains(&info.dst_acceleration_structure.as_raw())) {
         order::waits(NAME, Kind::Built, BUILD);
     }
-    for kind in [Kind::Filled, Kind::Computed] {
-        order::reads(NAME, kind, (BUILD, Access::SHADER_STORAGE_READ));
+    order::reads(NAME, Kind::Filled, (BUILD, Access::SHADER_STORAGE_READ));
+    // Vertices and boxes may be computed. Instances never are: the samples copy them.
+    let top = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
+    if own.iter().any(|info| info.ty != top) {
+        order::reads(NAME, Kind::Computed, (BUILD, Access::SHADER_STORAGE_READ));
     }
-    if own.iter().any(|info| info.ty == vk::AccelerationStructureTypeKHR::TOP_LEVEL) {
+    if own.iter().any(|info| info.ty == top) {
         order::reads(NAME, Kind::Built, STRUCTURE_READ);
         order::reads(NAME, Kind::Copied, STRUCTURE_READ);
     }
