@@ -344,7 +344,7 @@ fn files_of_other_exporters() {
         files_warned(&files, warnings);
     }
     let folder = format!("mtllib .\n{TRIANGLE}");
-    let words = "model.obj:1: mtllib names \".\", which is no file";
+    let words = "model.obj:1: mtllib names \".\", which is a folder";
     files_warned(&[("model.obj", folder.as_bytes())], &[words]);
     let gone = "model.obj:3: mtllib names \"model.mtl\", which is not there";
     let grey = "model.obj:15: the material \"Material.001\" is not defined";
