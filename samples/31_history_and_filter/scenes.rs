@@ -26,11 +26,14 @@ pub struct Staged {
     pub sky: Sky,
 }
 
-/// The chess set, Black's pieces painted red.
+/// The chess set without its polish, Black's pieces painted red.
 pub fn chess() -> Result<Scene> {
     let mut scene = Scene::chess()?;
-    for material in scene.model.materials.iter_mut().filter(|material| material.name == "black") {
-        material.base_color = Vec3::new(0.5, 0.035, 0.02);
+    for material in &mut scene.model.materials {
+        (material.specular, material.illumination) = (Vec3::ZERO, 1);
+        if material.name == "black" {
+            material.base_color = Vec3::new(0.5, 0.035, 0.02);
+        }
     }
     scene.camera = Camera::new(DVec3::new(6.4, 2.5, -2.7), DVec3::new(0.2, 0.3, -1.1), 33.0);
     Ok(scene)
