@@ -287,12 +287,12 @@ fn set_normals(
     let texture = images.texture(map.index, Use::Normals, features);
     material.normal_texture = texture.map(|texture| texture.index);
     let (scale, most) = (map.scale, BUMPIEST);
-    if !(scale.abs() <= most) {
+    if scale.abs() > most {
         features.note("bumps", 1, || {
             format!("{place} has the scale {scale:e} of its normal map, more than {most}; {most} is taken")
         });
     }
-    material.normal_scale = if scale.is_nan() { 1.0 } else { scale.clamp(-most, most) };
+    material.normal_scale = scale.clamp(-most, most);
     material.normal_texture.is_some()
 }
 
