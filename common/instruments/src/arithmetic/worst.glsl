@@ -554,6 +554,9 @@ vec4 worst_mul(const vec3 v, const mat4x3 m, const uint how) { return vec4(
     worst_dot(v, m[0], how), worst_dot(v, m[1], how), worst_dot(v, m[2], how), worst_dot(v, m[3], how)); }
 vec4 worst_mul(const vec4 v, const mat4 m, const uint how) { return vec4(
     worst_dot(v, m[0], how), worst_dot(v, m[1], how), worst_dot(v, m[2], how), worst_dot(v, m[3], how)); }
+vec3 worst_mul(const mat2x3 m, const vec2 v, const uint how) { return vec3(
+    worst_dot(vec2(m[0].x, m[1].x), v, how), worst_dot(vec2(m[0].y, m[1].y), v, how),
+    worst_dot(vec2(m[0].z, m[1].z), v, how)); }
 vec3 worst_mul(const mat3 m, const vec3 v, const uint how) { return worst_mul(v, transpose(m), how); }
 vec4 worst_mul(const mat4 m, const vec4 v, const uint how) { return worst_mul(v, transpose(m), how); }
 vec3 worst_mul(const mat4x3 m, const vec4 v, const uint how) {
