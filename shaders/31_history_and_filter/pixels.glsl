@@ -56,11 +56,12 @@ const float PACKING = 5e-5;
 uint packed(vec3 normal) {
     vec2 at = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
     vec2 folded = (1.0 - abs(at.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(at, vec2(0.0)));
-    return packSnorm2x16(normal.z < 0.0 ? folded : at);
+    ivec2 parts = ivec2(round(32767.0 * clamp(normal.z < 0.0 ? folded : at, -1.0, 1.0)));
+    return uint(parts.x) & 0xffffu | uint(parts.y) << 16;
 }
 
 vec3 unpacked(uint normal) {
-    vec2 at = unpackSnorm2x16(normal);
+    vec2 at = vec2(int(normal << 16) >> 16, int(normal) >> 16) / 32767.0;
     vec3 on = vec3(at, 1.0 - abs(at.x) - abs(at.y));
     float below = max(-on.z, 0.0);
     on.xy -= below * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(on.xy, vec2(0.0)));
