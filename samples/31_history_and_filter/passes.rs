@@ -78,7 +78,7 @@ common::shader_struct! {
     }
 }
 
-/// What the passes are given besides the pixels.
+/// The inputs of the passes besides the pixels.
 pub struct Given<'a> {
     pub levels: &'a Levels,
     pub pixels: &'a Pixels,
@@ -122,7 +122,7 @@ impl Passes {
         let between = |number: u32| for_filter[number as usize % 2];
         let picture = [Descriptor::StorageImage(frame.image)];
         // ANCHOR: passes
-        // What the pass before has written is now visible.
+        // This pass reads the results of the one before.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         if number == 0 {
             let history = History {

@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform History {
     float rounding;          // a bound on the error of a distance between two points of the scene
 } push;
 
-// What four pixels of the last frame know.
+// The sum over four pixels of the last frame.
 struct Found {
     Estimate estimate;
     float frames;              // in their histories

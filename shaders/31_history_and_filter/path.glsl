@@ -63,7 +63,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     MaterialRecord lit = material;
     lit.specular *= kept_of_highlight(material.shininess);
     vec3 arriving = visible * arriving_light(push.light.light, start.origin);
-    // What the first surface shines with is no light that it reflects: compose.comp adds it.
+    // The first surface's own emission is not reflected light; compose.comp adds it.
     vec3 shines = path.bounce == 0 ? vec3(0.0) : material.emission;
     gather(path, shines + lit_by(arriving, to_light, hit, lit, -ray.direction));
     // ANCHOR_END: light

@@ -14,10 +14,10 @@ use super::unseen::Places;
 use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
 
-/// What is wrong with two maps of a material's relief.
+/// The fault of a material with two maps of its relief.
 const BOTH: &str = "the material has a normal map and a map of heights";
 
-/// What helps if an option is not found.
+/// The advice where an option stands behind the name.
 const LATE: &str = "; options come before the name";
 
 /// The materials found so far in the MTL files of an OBJ file.

@@ -1,4 +1,4 @@
-//! What each part is good for: the error of a picture in motion without it. And the bias of the filter.
+//! The error of a picture in motion when one part is left out, and the bias of the filter.
 
 use common::app::Picture;
 use run::{Chapter, expected};

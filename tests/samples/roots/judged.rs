@@ -99,8 +99,8 @@ impl Tally {
     }
 }
 
-/// How far from the first hit an answer still counts as that hit, as a difference of t. The next hit of a thin tube is
-/// nearly always farther away.
+/// The largest difference of t from the first hit at which an answer counts as that hit. The next hit of a thin tube
+/// is nearly always farther away.
 fn near_in_t(case: &Case) -> f64 {
     let Torus { major, minor, .. } = case.torus;
     (1e-3 * (major + minor)).min(0.25 * minor) / case.ray.direction.length()

@@ -19,7 +19,7 @@ pub(super) struct File {
     pub shown: String,
     /// Its JSON part.
     pub root: Root,
-    /// What is done to the texture coordinates of normal maps, by material.
+    /// The `KHR_texture_transform` of each material's normal map.
     pub normal_transforms: Vec<Option<TextureTransform>>,
     /// The folder that its buffers and images are in.
     pub folder: Folder,

@@ -30,7 +30,7 @@ pub(super) enum Use {
 }
 
 impl Use {
-    /// What stands for a texture that cannot be read.
+    /// The replacement for a texture that cannot be read, as words of a warning.
     fn instead(self) -> &'static str {
         match self {
             Self::Color | Self::Cutout(_) => "the plain colour stands for it",

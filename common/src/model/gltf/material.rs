@@ -119,7 +119,7 @@ impl Look {
         Self { material, ..Self::default() }
     }
 
-    /// Material `number` of a file; `moved` is what is done to the texture coordinates of its normal map.
+    /// Material `number` of a file; `moved` is the texture transform of its normal map.
     pub fn of(
         source: &Source,
         number: usize,
