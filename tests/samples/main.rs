@@ -11,6 +11,7 @@ mod distant_spheres;
 mod emitters;
 mod environment;
 mod equalities;
+mod error_against_time;
 mod far_from_origin;
 mod filtered_checker;
 mod foundation;
