@@ -3,6 +3,7 @@
 //! New since 11_path_tracing: light is followed from frame to frame on the surface it lies on, in `history.comp`;
 //! a filter that makes and loses none of it, in `filter.comp`; and motion, a function of the frame's number.
 
+mod done;
 mod levels;
 mod moving;
 mod passes;
@@ -21,7 +22,8 @@ use common::scene::{
     Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, Sun, input_usage,
 };
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
-use glam::{Affine3A, UVec2};
+use done::{Done, Valid};
+use glam::UVec2;
 use levels::Levels;
 use moving::{Back, Motion};
 use passes::{Given, Passes, Show, Tests};
@@ -37,8 +39,6 @@ fn main() -> ExitCode {
 const MAX_DEPTH: u32 = 256;
 /// A pixel has 8 bits for the length of its history.
 const MAX_MEMORY: u32 = 255;
-/// The most frames that a window leaves out and still goes on with its history: a quarter of a second.
-const MAX_STEP: u32 = 15;
 /// The last frame of the motion.
 const LAST: u32 = 1439;
 
@@ -75,33 +75,6 @@ struct Constants {
     sky: Sky,
     roulette: bool,
     divide: bool,
-}
-
-/// All that decides whether an earlier frame's light may be used. The camera is not part of it, nor is anything that
-/// the frame's number moves.
-#[derive(Clone, Copy, PartialEq)]
-struct Valid {
-    constants: Constants,
-    name: SceneName,
-    motion: Motion,
-    sun: Sun,
-    light_size: f32,
-    depth: u32,
-    seed: u32,
-    history: bool,
-    tests: Tests,
-    size: UVec2,
-}
-
-/// A frame, as far as the next one needs to know it.
-struct Done {
-    valid: Valid,
-    camera: CameraBasis,
-    piece: Affine3A,
-    /// Its number in the animation.
-    frame: u32,
-    /// Number of frames since the history began.
-    age: u32,
 }
 
 common::shader_struct! {
@@ -227,8 +200,8 @@ impl Sample for Demo {
         Ok(())
     }
 
-    fn passes(&self) -> u32 {
-        passes::count(self.filters)
+    fn passes(&self) -> Vec<&'static str> {
+        passes::names(self.filters)
     }
 
     fn pass(&mut self, frame: &Frame, number: u32) -> Result<()> {
@@ -248,7 +221,7 @@ impl Sample for Demo {
             filters: self.filters,
         };
         self.passes.record(frame, number, &given)?;
-        if number + 1 == self.passes() {
+        if number + 1 == passes::count(self.filters) {
             self.pixels.swap();
             self.done = self.next.take();
         }
@@ -265,13 +238,6 @@ impl Sample for Demo {
 
     fn playback(&mut self) -> Option<&mut Playback> {
         Some(&mut self.playback)
-    }
-}
-
-impl Done {
-    /// Tests whether the next frame may use what this one knows: nothing but camera and time has changed.
-    fn goes_on_to(&self, valid: &Valid, frame: u32) -> bool {
-        self.valid == *valid && frame.wrapping_sub(self.frame) <= MAX_STEP
     }
 }
 

@@ -107,6 +107,12 @@ pub fn count(filters: u32) -> u32 {
     3 + filters
 }
 
+/// The names of the passes.
+pub fn names(filters: u32) -> Vec<&'static str> {
+    let filters = vec!["filter"; filters as usize];
+    [vec!["history", "variance"], filters, vec!["compose"]].concat()
+}
+
 impl Passes {
     /// Records a pass: the history, the variance, so many of the filter, and the composition.
     ///

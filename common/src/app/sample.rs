@@ -49,9 +49,9 @@ pub trait Sample: 'static {
     /// If something is missing and cannot be made.
     fn render(&mut self, frame: &Frame) -> Result<()>;
 
-    /// Number of passes over the whole picture that follow its last band.
-    fn passes(&self) -> u32 {
-        0
+    /// The passes over the whole picture that follow its last band, by name: the panel shows the time of each.
+    fn passes(&self) -> Vec<&'static str> {
+        Vec::new()
     }
 
     /// Records one of these passes into `frame.cmd`. Each is a submission of its own, after everything that bands and

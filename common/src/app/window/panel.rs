@@ -192,11 +192,10 @@ impl Panel {
         } else {
             format!("{width} × {height}   {percent:.0} %")
         };
-        let mut lines = vec![
-            ("GPU time", format!("{:.1} ms", facts.milliseconds)),
-            ("primary rays", rays(facts.rays())),
-            ("picture", size),
-        ];
+        let mut lines = vec![("GPU time", format!("{:.1} ms", facts.milliseconds))];
+        let part = |&(name, time): &(&'static str, f64)| (name, format!("{time:.2} ms"));
+        lines.extend(facts.parts.iter().map(part));
+        lines.extend([("primary rays", rays(facts.rays())), ("picture", size)]);
         lines.extend(facts.accumulated.map(|count| ("accumulated", count.to_string())));
         rows::grid("measured").spacing([10.0, 3.0]).show(ui, |ui| {
             for (name, value) in lines {
