@@ -74,7 +74,7 @@ impl Comparison {
             table +=
                 &format!("| {name} | {milliseconds} | {median:.2} | {low:.2} to {high:.2} |\n");
         };
-        for Measured { value, milliseconds, ratio } in &self.values {
+        for Measured { value, milliseconds, ratio, .. } in &self.values {
             row(value, format!("{milliseconds:.1}"), *ratio);
         }
         row(&format!("{first} again (noise)"), String::new(), self.noise);
