@@ -82,7 +82,7 @@ const PLOTS: [Plot; 4] = [
         control: "roulette",
         values: &["off", "on"],
         frames: 256,
-        reference: 8192,
+        reference: 2048,
         errors: &[0.005, 0.01, 0.02, 0.05, 0.1, 0.2],
     },
     Plot {
@@ -92,7 +92,7 @@ const PLOTS: [Plot; 4] = [
         control: "clamp",
         values: &["0", "10", "2"],
         frames: 256,
-        reference: 16384,
+        reference: 4096,
         errors: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
     },
     Plot {
@@ -102,7 +102,7 @@ const PLOTS: [Plot; 4] = [
         control: "sequence",
         values: &["random", "Sobol"],
         frames: 256,
-        reference: 8192,
+        reference: 4096,
         errors: &[0.002, 0.005, 0.01, 0.02, 0.05, 0.1],
     },
     Plot {
