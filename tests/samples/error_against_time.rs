@@ -1,4 +1,4 @@
-//! `--compare` with `--against`, and the plots of error against time that the pages of 11, 27, 28 and 37 show.
+//! `--compare` with `--against`, and the plots of error against time that the pages of 11, 27 and 28 show.
 //! Drawn on request: `cargo test --test samples error_against_time::draw -- --ignored --nocapture`.
 
 use std::path::PathBuf;
@@ -74,7 +74,7 @@ struct Plot {
     errors: &'static [f64],
 }
 
-const PLOTS: [Plot; 4] = [
+const PLOTS: [Plot; 3] = [
     Plot {
         chapter: "11_path_tracing",
         size: "96x60",
@@ -105,20 +105,10 @@ const PLOTS: [Plot; 4] = [
         reference: 4096,
         errors: &[0.002, 0.005, 0.01, 0.02, 0.05, 0.1],
     },
-    Plot {
-        chapter: "37_sequences",
-        size: "192x120",
-        sets: &[],
-        control: "sequence",
-        values: &["random", "R2", "Sobol"],
-        frames: 256,
-        reference: 4096,
-        errors: &[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1],
-    },
 ];
 
 #[test]
-#[ignore = "by hand: draws docs/images/NN_time.svg of four chapters, from times"]
+#[ignore = "by hand: draws docs/images/NN_time.svg of three chapters, from times"]
 fn draw() {
     for plot in &PLOTS {
         let Plot { chapter, control, values, frames, .. } = *plot;
