@@ -19,7 +19,7 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, Sun, input_usage,
+    Camera, CameraBasis, DiskLight, Light, Look, Scene, SceneAddresses, Sun, input_usage,
 };
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use done::{Done, Valid};
@@ -96,7 +96,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(scenes::chess)?;
+        let source = setup.scene_with(&[Look::Mirror], scenes::chess)?;
         let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source);
         let camera = scene.camera;
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
@@ -170,7 +170,7 @@ impl Sample for Demo {
         let camera = self.motion.camera(&self.camera, number).basis(frame.aspect());
         if frame.is_first_band() {
             let home = self.levels.home(&self.source);
-            self.levels.place(frame.cmd, self.motion.piece(&home, number))?;
+            self.levels.place(frame.cmd, self.motion.piece(&home, self.levels.way, number))?;
         }
         // The passes of the last frame have read what this one writes.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
@@ -218,6 +218,7 @@ impl Sample for Demo {
             back: self.back.address.into(),
             tests: self.tests,
             memory: if last.is_some() && self.history { self.memory } else { 1 },
+            white: self.memory,
             filters: self.filters,
         };
         self.passes.record(frame, number, &given)?;
@@ -232,8 +233,14 @@ impl Sample for Demo {
         true
     }
 
+    fn forget(&mut self) -> bool {
+        (self.done, self.next) = (None, None);
+        true
+    }
+
     fn gathers(&self) -> bool {
-        !self.history && self.filters == 0
+        let stands = !self.playback.playing || self.motion == Motion::Still;
+        stands && !self.history && self.filters == 0
     }
 
     fn playback(&mut self) -> Option<&mut Playback> {

@@ -44,12 +44,14 @@ float bend_of(Seen surface) {
 }
 
 uint packed_rest(uint instance, uint length, float bend) {
-    return instance << 16 | length << 8 | uint(ceil(255.0 * bend));
+    // Less than a thousandth of a unit is rounding, as on a flat surface that is tilted.
+    return instance << 16 | length << 8 | uint(ceil(max(255.0 * bend - 1e-3, 0.0)));
 }
 
-// The distance between a unit normal and its unpacked form is smaller: 16 bits are off by 2^-16 in each of two
-// coordinates, and the octahedron maps these to at most sqrt(3) times as much.
-const float PACKING = 5e-5;
+// The distance between a unit normal and its unpacked form is smaller. 16 bits are off by 2^-16 in each of two
+// coordinates. The third moves with both, which makes it sqrt(6) times as much, and normalising stretches that by up
+// to sqrt(3): 6.5e-5. The rest is for the rounding of `bend`.
+const float PACKING = 7e-5;
 
 // A unit vector as a point of an octahedron, unfolded to a square (Meyer and others, "On Floating-Point
 // Normal Vectors", 2010).

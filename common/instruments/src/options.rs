@@ -83,7 +83,7 @@ impl Options {
 pub fn of_the_book(command: Command) -> Command {
     command.mut_arg("scene", |scene| {
         scene.help(
-            "Open this model (.obj) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), \
+            "Open this model (.obj, .gltf, .glb) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), \
              25 also scene files (.toml)",
         )
     })

@@ -70,6 +70,12 @@ pub trait Sample: 'static {
         false
     }
 
+    /// Forgets the light of earlier frames, if the sample has any; then true. The next frame begins a new picture,
+    /// which a [`Frame::index`] of 0 does not: the camera may have moved.
+    fn forget(&mut self) -> bool {
+        false
+    }
+
     /// True if a frame whose [`Frame::accumulated`] is 0 shows one sample that depends on [`Frame::index`] alone;
     /// `--samples` can then sum them.
     fn gathers(&self) -> bool {

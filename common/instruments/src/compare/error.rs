@@ -86,6 +86,7 @@ impl Reference {
         for measured in values {
             let value = &measured.value;
             controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
+            run.sample.forget();
             let fit = f64::from(*rounds) * least / measured.ratio.median;
             let equal = (fit as u32).clamp(1, *rounds);
             let mut bands = Bands::default();

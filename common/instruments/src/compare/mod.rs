@@ -85,7 +85,12 @@ pub fn of_run(
     let mut frame = |run: &mut Run, value: &str| {
         frames += 1;
         controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
-        run.time(bands.entry(value.to_owned()).or_default(), 0)
+        let bands = bands.entry(value.to_owned()).or_default();
+        if run.sample.forget() {
+            // The frame that is timed has a history, and it is that of this value.
+            run.time(bands, 0)?;
+        }
+        run.time(bands, 0)
     };
     // A software driver starts at once, and its clock does not rise: any picture is wide enough.
     let mut asked = None;
@@ -123,6 +128,7 @@ pub fn of_run(
     }
     // The picture of the run is that of the first value, whichever was timed last.
     controls::set_beside(&run.args.sets, control, &values[0], |c| run.sample.controls(c))?;
+    run.sample.forget();
     Ok(comparison)
 }
 
