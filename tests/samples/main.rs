@@ -42,6 +42,7 @@ mod ray_offset;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;
+mod reservoirs;
 mod roots;
 mod rough_metal;
 mod sequences;
