@@ -162,7 +162,7 @@ mod tests {
     fn hits_are_on_the_surface_and_a_closed_one_is_entered_and_left() {
         let mut random = Random(62);
         let mut met = 0;
-        for round in 0..200 {
+        for round in 0..400 {
             let (a, b) = (f32s(random.in_cube()), f32s(random.in_cube()));
             let radii = [0.25, [0.25, 0.5, 0.0][round % 3]];
             let closed = Cone { a, b, radii, is_closed: true };
