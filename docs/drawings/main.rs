@@ -14,6 +14,7 @@ mod march;
 mod micro;
 mod orders;
 mod rays;
+mod reservoir;
 mod shadows;
 mod shapes;
 mod shutter;
@@ -57,6 +58,7 @@ const DRAWINGS: &[Drawing] = &[
     ("primitive_order", orders::quarters),
     ("refit", structures::refit),
     ("reprojection", history::reprojection),
+    ("reservoir", reservoir::life),
     ("shadow_lift", shadows::lift),
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),

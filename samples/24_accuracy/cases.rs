@@ -82,6 +82,7 @@ struct RawExpect {
     secondary_hit: Option<ExpectedHit>,
     secondary_t: Option<String>,
     mean: Option<String>,
+    count: Option<u32>,
 }
 
 /// Reads a file of cases.
@@ -210,7 +211,12 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
         Primitive::SecondaryOrigin => mean.is_some(),
         _ => mean.is_some() || raw.secondary_hit.is_some() || secondary_t.is_some(),
     };
-    ensure!(!foreign, "a {} expects none of these", primitive.name());
+    let counts = matches!(primitive, Primitive::Cone | Primitive::Quadric);
+    ensure!(
+        !foreign && (counts || raw.count.is_none()),
+        "a {} expects none of these",
+        primitive.name()
+    );
     Ok(match primitive {
         Primitive::Accumulation => Expected {
             hit: ExpectedHit::Yes,
@@ -218,6 +224,7 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
             normal: None,
             faces,
             surface: None,
+            count: None,
         },
         Primitive::SecondaryOrigin => Expected {
             hit: raw.secondary_hit.context("no secondary_hit is expected")?,
@@ -225,6 +232,7 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
             normal: None,
             faces,
             surface: t,
+            count: None,
         },
         _ => {
             let hit = raw.hit.context("neither hit nor miss is expected")?;
@@ -232,7 +240,7 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
                 (hit == ExpectedHit::Yes) == t.is_some(),
                 "a t is expected where there is a hit"
             );
-            Expected { hit, t, normal, faces, surface: None }
+            Expected { hit, t, normal, faces, surface: None, count: raw.count }
         }
     })
 }

@@ -1,5 +1,6 @@
 //! Seeded random rays by the thousand, each family hard in its own way, with the true answers.
 
+mod curved;
 mod departures;
 mod flat;
 mod smooth;
@@ -60,6 +61,8 @@ impl Family {
             Primitive::Heightfield => smooth::heightfields(draw),
             Primitive::SecondaryOrigin => departures::departures(draw),
             Primitive::Accumulation => sums(),
+            Primitive::Cone => curved::cones(draw),
+            Primitive::Quadric => curved::quadrics(draw),
         }
     }
 

@@ -29,6 +29,8 @@ pub struct Expected {
     pub faces: Vec<DVec3>,
     /// The t of the point that a ray leaves, for a ray that leaves a sphere.
     pub surface: Option<f64>,
+    /// The number of times the ray meets the surface.
+    pub count: Option<u32>,
 }
 
 /// Error limits of a top rung; a missing one is not checked.
@@ -132,6 +134,11 @@ pub fn judge(
         let from = departure(leaving, ray, expected);
         let offset = (answer.point.as_dvec3() - from).length();
         check("the start", Some(offset), tolerance.offset_max);
+    }
+    // Through an acceleration structure, only the first hit is reported.
+    if let Some(count) = expected.count.filter(|&count| way == Way::Direct && count != answer.count)
+    {
+        why.push(format!("it is met {} times, not {count}", answer.count));
     }
     let verdict = if why.is_empty() { Verdict::Right } else { Verdict::Inexact };
     judged(verdict, why.join("; "))

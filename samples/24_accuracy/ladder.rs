@@ -15,10 +15,12 @@ pub enum Primitive {
     Heightfield,
     SecondaryOrigin,
     Accumulation,
+    Cone,
+    Quadric,
 }
 
 impl Primitive {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Sphere,
         Self::Box,
         Self::Plane,
@@ -28,6 +30,8 @@ impl Primitive {
         Self::Heightfield,
         Self::SecondaryOrigin,
         Self::Accumulation,
+        Self::Cone,
+        Self::Quadric,
     ];
 
     pub fn name(self) -> &'static str {
@@ -41,6 +45,8 @@ impl Primitive {
             Self::Heightfield => "heightfield",
             Self::SecondaryOrigin => "secondary origin",
             Self::Accumulation => "accumulation",
+            Self::Cone => "cone",
+            Self::Quadric => "quadric",
         }
     }
 
@@ -60,6 +66,8 @@ impl Primitive {
             Self::Heightfield => &HEIGHTFIELD,
             Self::SecondaryOrigin => &SECONDARY_ORIGIN,
             Self::Accumulation => &ACCUMULATION,
+            Self::Cone => &CONE,
+            Self::Quadric => &QUADRIC,
         }
     }
 }
@@ -204,4 +212,19 @@ static ACCUMULATION: [Rung; 4] = [
     rung("A1", "mean", 1),
     exact("A2", "Kahan", 2),
     top(rung("A3", "fixed point", 3)),
+];
+
+static CONE: [Rung; 4] = [
+    rung("K0", "textbook", 0),
+    rung("K1", "stable", 1),
+    top(exact("K2", "two-float", 2)),
+    float64("K3", 3),
+];
+
+static QUADRIC: [Rung; 4] = [
+    rung("Q0", "textbook", 0),
+    rung("Q1", "stable", 1),
+    top(exact("Q2", "two-float", 2)),
+    // Along an asymptote the coefficient of t² needs more than 53 bits.
+    Rung { is_top: false, ..float64("Q3", 3) },
 ];

@@ -180,6 +180,8 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
             (true, true) => {
                 let t = expected.t.expect("a hit has its t");
                 ulps.push(ulp_error(answer.t, t));
+                let is_known = expected.count.filter(|_| way == Way::Direct);
+                errors.miscounted += usize::from(is_known.is_some_and(|n| n != answer.count));
             }
             (true, false) if way == Way::Traced && answer.offered == 0 => errors.never_offered += 1,
             (true, false) => errors.false_misses += 1,

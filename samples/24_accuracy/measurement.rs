@@ -80,6 +80,8 @@ pub struct Errors {
     /// Hits that the device's box test kept from the shader; no false misses.
     pub never_offered: usize,
     pub not_finite: usize,
+    /// Rays for which the number of hits is wrong, among those whose first hit is right; of direct rays alone.
+    pub miscounted: usize,
 }
 
 /// Costs of a rung.

@@ -40,6 +40,6 @@ common::shader_struct! {
         pub t: f32,
         pub normal: Vec3,
         pub point: Vec3,
-        pub steps: u32,
+        pub count: u32,
     }
 }

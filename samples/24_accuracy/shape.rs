@@ -37,6 +37,19 @@ pub enum Shape {
     Leaving(Leaving),
     /// The mean of a sequence.
     Sum(Sum),
+    Cone(Cone),
+    /// Coefficients of x², y², z², yz, xz, xy, x, y, z and 1.
+    Quadric([f32; 10]),
+}
+
+/// A cone between two discs: a cylinder if their radii agree.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    pub a: Vec3,
+    pub b: Vec3,
+    pub radii: [f32; 2],
+    /// True if its discs are part of the surface.
+    pub is_closed: bool,
 }
 
 /// `H(x, z)`, as `common/heightfield.glsl` has it.
@@ -103,6 +116,8 @@ impl Shape {
             Self::Heightfield(_) => Primitive::Heightfield,
             Self::Leaving(_) => Primitive::SecondaryOrigin,
             Self::Sum(_) => Primitive::Accumulation,
+            Self::Cone(_) => Primitive::Cone,
+            Self::Quadric(_) => Primitive::Quadric,
         }
     }
 
@@ -175,6 +190,13 @@ impl Shape {
                 let [every, n] = [every, *n].map(|x| [(x >> 16) as f32, (x & 0xffff) as f32]);
                 add(&[kind, *value, special, every[0], every[1], n[0], n[1]]);
             }
+            Self::Cone(Cone { a, b, radii, is_closed }) => {
+                add(&a.to_array());
+                add(&b.to_array());
+                add(radii);
+                add(&[if *is_closed { 1.0 } else { 0.0 }]);
+            }
+            Self::Quadric(coefficients) => add(coefficients),
         }
         numbers
     }
@@ -188,7 +210,14 @@ impl Shape {
                 (center - radius, center + radius)
             }
             Self::Box { low, high } => (low.as_dvec3(), high.as_dvec3()),
-            Self::Plane { .. } | Self::PointPlane { .. } | Self::Sum(_) => (-far, far),
+            Self::Plane { .. } | Self::PointPlane { .. } | Self::Sum(_) | Self::Quadric(_) => {
+                (-far, far)
+            }
+            Self::Cone(Cone { a, b, radii, .. }) => {
+                let [a, b] = [(a, radii[0]), (b, radii[1])]
+                    .map(|(middle, radius)| (middle.as_dvec3(), DVec3::splat(radius.into())));
+                ((a.0 - a.1).min(b.0 - b.1), (a.0 + a.1).max(b.0 + b.1))
+            }
             Self::Triangles(triangles) => {
                 let corners = triangles.as_flattened();
                 let fold = |f: fn(Vec3, Vec3) -> Vec3| corners.iter().copied().reduce(f);

@@ -4,10 +4,10 @@ use common::scene::Camera;
 use glam::{DVec3, Vec3};
 
 use crate::ladder::Primitive;
-use crate::shape::{Heightfield, Leaving, Shape};
+use crate::shape::{Cone, Heightfield, Leaving, Shape};
 
 /// Primitives that can be looked at; a sum cannot.
-pub const PRIMITIVES: [Primitive; 8] = [
+pub const PRIMITIVES: [Primitive; 10] = [
     Primitive::Sphere,
     Primitive::Box,
     Primitive::Plane,
@@ -16,6 +16,8 @@ pub const PRIMITIVES: [Primitive; 8] = [
     Primitive::Instance,
     Primitive::Heightfield,
     Primitive::SecondaryOrigin,
+    Primitive::Cone,
+    Primitive::Quadric,
 ];
 
 /// Towards the sun.
@@ -64,6 +66,16 @@ impl Specimen {
                 g: [0.3, 0.2],
                 lipschitz: 1.373_695_8,
             }),
+            Primitive::Cone => Shape::Cone(Cone {
+                a: Vec3::new(-0.5, -0.5, -0.25),
+                b: Vec3::new(0.5, 0.5, 0.25),
+                radii: [0.5, 0.25],
+                is_closed: true,
+            }),
+            // One sheet, as of a cooling tower, leaning.
+            Primitive::Quadric => {
+                Shape::Quadric([4.0, -1.0, 4.0, 0.0, 0.0, 1.0, 0.0, 0.25, 0.0, -1.0])
+            }
             Primitive::SecondaryOrigin => Shape::Leaving(Leaving {
                 center: Vec3::ZERO,
                 radius: 1.0,

@@ -23,6 +23,8 @@ common::shader_enum! {
         LowBall,
         /// 64 small balls of very different power.
         ManyBalls,
+        /// The game without its polish and its lamps, below strings of a thousand small ones.
+        ManyLamps,
         /// A square that shines, a unit away from one that does not.
         ParallelSquares,
         /// A square that shines at a right angle to one that does not.
@@ -141,10 +143,12 @@ impl Staged {
             SceneName::Ball => above_square(&[(Vec3::new(0.2, 0.1, 1.25), 0.4, 1.0)]),
             SceneName::LowBall => above_square(&[(Vec3::new(0.9, 0.1, 0.1), 0.3, 1.0)]),
             SceneName::ManyBalls => above_square(&many()),
+            SceneName::ManyLamps => many_lamps(source),
             SceneName::ParallelSquares => (closed_forms::parallel_squares(), vec![]),
             SceneName::PerpendicularSquares => (closed_forms::perpendicular_squares(), vec![]),
         };
-        Self { scene, spheres, sky: Sky::Black }
+        let sky = if name == SceneName::ManyLamps { Sky::Night } else { Sky::Black };
+        Self { scene, spheres, sky }
     }
 
     /// Corners of the box around everything.
@@ -169,6 +173,41 @@ fn furnace(source: &Staged) -> (Scene, Vec<Sphere>) {
     scene.model.materials.push(lamp("sky", Vec3::ONE));
     let material = scene.model.materials.len() - 1;
     (scene, vec![Sphere { center, radius, material }])
+}
+
+/// The set in matte, 81 dim lamps at the corners of the squares, and strings of 943 bright ones above the board.
+fn many_lamps(source: &Staged) -> (Scene, Vec<Sphere>) {
+    let mut scene = source.scene.clone();
+    let meshes = &scene.model.meshes;
+    scene.instances.retain(|instance| meshes[instance.mesh].name != "paper");
+    for material in &mut scene.model.materials {
+        // Metals have no other colour than that of their reflections.
+        material.base_color = material.base_color.max(0.7 * material.specular);
+        (material.specular, material.emission, material.illumination) = (Vec3::ZERO, Vec3::ZERO, 1);
+    }
+    let first = scene.model.materials.len();
+    let colors = [[1.0, 0.5, 0.16], [1.0, 0.72, 0.4], [1.0, 0.3, 0.1], [0.45, 0.6, 1.0]];
+    for (strength, name) in [(16.0, "corner"), (30.0, "bulb")] {
+        let lamps = colors.map(|color| lamp(name, strength * Vec3::from(color)));
+        scene.model.materials.extend(lamps);
+    }
+    let corners = (0..81).map(|i: usize| Sphere {
+        center: Vec3::new((i % 9) as f32 - 4.0, 0.05, (i / 9) as f32 - 4.0),
+        radius: 0.035,
+        material: first + [0, 1, 2][i * 7 % 3],
+    });
+    let bulbs = (0..943).map(|i: usize| {
+        let (along, across) = ((i % 41) as f32 / 20.0 - 1.0, (i / 41) as f32 / 11.0 - 1.0);
+        let height = 2.1 + 1.3 * along * along + 0.3 * across * across;
+        Sphere {
+            center: Vec3::new(5.5 * along, height, 5.2 * across),
+            radius: 0.022,
+            material: first + 4 + [0, 1, 2, 3, 1][i * 13 % 5],
+        }
+    });
+    scene.camera = Camera::new(DVec3::new(-7.4, 2.6, 3.6), DVec3::new(-0.6, 0.5, 0.1), 36.0);
+    let spheres = corners.chain(bulbs).collect();
+    (scene, spheres)
 }
 
 /// The white square alone, and balls that shine: centre, radius and radiance.

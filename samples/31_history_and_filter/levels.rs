@@ -9,7 +9,7 @@ use common::scene::{
 };
 use glam::Affine3A;
 
-use super::moving::moving;
+use super::moving::{moving, way};
 
 /// A pixel has 16 bits for its instance, and one number is the sky's.
 const MOST: usize = 0xffff;
@@ -22,6 +22,8 @@ pub struct Levels {
     pub tlas: AccelerationStructure,
     /// The index of the moving instance.
     pub moving: usize,
+    /// The length of its way.
+    pub way: f64,
     /// A bound on the error of a distance between two computed points of the scene.
     pub rounding: f32,
     host: Scene,
@@ -70,8 +72,9 @@ impl Levels {
         let scratch = tlas.scratch()?;
         let moving = moving(&host);
         let placed = host.instances[moving].transform;
+        let way = way(&host);
         let rounding = rounding(&host);
-        Ok(Self { scene, tlas, moving, rounding, host, order, instances, scratch, placed })
+        Ok(Self { scene, tlas, moving, way, rounding, host, order, instances, scratch, placed })
     }
 
     /// The transform of the moving instance now.

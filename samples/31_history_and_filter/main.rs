@@ -3,6 +3,7 @@
 //! New since 11_path_tracing: light is followed from frame to frame on the surface it lies on, in `history.comp`;
 //! a filter that makes and loses none of it, in `filter.comp`; and motion, a function of the frame's number.
 
+mod done;
 mod levels;
 mod moving;
 mod passes;
@@ -18,10 +19,11 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, Sun, input_usage,
+    Camera, CameraBasis, DiskLight, Light, Look, Scene, SceneAddresses, Sun, input_usage,
 };
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
-use glam::{Affine3A, UVec2};
+use done::{Done, Valid};
+use glam::UVec2;
 use levels::Levels;
 use moving::{Back, Motion};
 use passes::{Given, Passes, Show, Tests};
@@ -37,8 +39,6 @@ fn main() -> ExitCode {
 const MAX_DEPTH: u32 = 256;
 /// A pixel has 8 bits for the length of its history.
 const MAX_MEMORY: u32 = 255;
-/// The most frames that a window leaves out and still goes on with its history: a quarter of a second.
-const MAX_STEP: u32 = 15;
 /// The last frame of the motion.
 const LAST: u32 = 1439;
 
@@ -77,33 +77,6 @@ struct Constants {
     divide: bool,
 }
 
-/// All that decides whether an earlier frame's light may be used. The camera is not part of it, nor is anything that
-/// the frame's number moves.
-#[derive(Clone, Copy, PartialEq)]
-struct Valid {
-    constants: Constants,
-    name: SceneName,
-    motion: Motion,
-    sun: Sun,
-    light_size: f32,
-    depth: u32,
-    seed: u32,
-    history: bool,
-    tests: Tests,
-    size: UVec2,
-}
-
-/// A frame, as far as the next one needs to know it.
-struct Done {
-    valid: Valid,
-    camera: CameraBasis,
-    piece: Affine3A,
-    /// Its number in the animation.
-    frame: u32,
-    /// Number of frames since the history began.
-    age: u32,
-}
-
 common::shader_struct! {
     /// Push constants of the shaders that trace.
     struct Push {
@@ -123,7 +96,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(scenes::chess)?;
+        let source = setup.scene_with(&[Look::Mirror], scenes::chess)?;
         let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source);
         let camera = scene.camera;
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
@@ -197,7 +170,7 @@ impl Sample for Demo {
         let camera = self.motion.camera(&self.camera, number).basis(frame.aspect());
         if frame.is_first_band() {
             let home = self.levels.home(&self.source);
-            self.levels.place(frame.cmd, self.motion.piece(&home, number))?;
+            self.levels.place(frame.cmd, self.motion.piece(&home, self.levels.way, number))?;
         }
         // The passes of the last frame have read what this one writes.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
@@ -227,8 +200,8 @@ impl Sample for Demo {
         Ok(())
     }
 
-    fn passes(&self) -> u32 {
-        passes::count(self.filters)
+    fn passes(&self) -> Vec<&'static str> {
+        passes::names(self.filters)
     }
 
     fn pass(&mut self, frame: &Frame, number: u32) -> Result<()> {
@@ -245,10 +218,11 @@ impl Sample for Demo {
             back: self.back.address.into(),
             tests: self.tests,
             memory: if last.is_some() && self.history { self.memory } else { 1 },
+            white: self.memory,
             filters: self.filters,
         };
         self.passes.record(frame, number, &given)?;
-        if number + 1 == self.passes() {
+        if number + 1 == passes::count(self.filters) {
             self.pixels.swap();
             self.done = self.next.take();
         }
@@ -259,19 +233,18 @@ impl Sample for Demo {
         true
     }
 
+    fn forget(&mut self) -> bool {
+        (self.done, self.next) = (None, None);
+        true
+    }
+
     fn gathers(&self) -> bool {
-        !self.history && self.filters == 0
+        let stands = !self.playback.playing || self.motion == Motion::Still;
+        stands && !self.history && self.filters == 0
     }
 
     fn playback(&mut self) -> Option<&mut Playback> {
         Some(&mut self.playback)
-    }
-}
-
-impl Done {
-    /// Tests whether the next frame may use what this one knows: nothing but camera and time has changed.
-    fn goes_on_to(&self, valid: &Valid, frame: u32) -> bool {
-        self.valid == *valid && frame.wrapping_sub(self.frame) <= MAX_STEP
     }
 }
 

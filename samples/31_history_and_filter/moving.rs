@@ -14,7 +14,7 @@ common::shader_enum! {
 const CAMERA: f64 = 0.25;
 /// Degrees per frame that the sun turns around the vertical.
 const SUN: f64 = 0.08;
-/// Frames in which the piece goes one square ahead; then it rests for as many, comes back, and rests again.
+/// Frames in which the piece goes ahead; then it rests for as many, comes back, and rests again.
 const WAY: u32 = 48;
 
 impl Motion {
@@ -36,9 +36,9 @@ impl Motion {
         Sun { azimuth: azimuth.rem_euclid(360.0) as f32, ..*sun }
     }
 
-    /// The transform of the moving piece at a frame; `home` is where it starts. On its way of a square it turns half
+    /// The transform of the moving piece at a frame; `home` is where it starts. On its `way` along z it turns half
     /// around.
-    pub fn piece(self, home: &Affine3A, frame: u32) -> Affine3A {
+    pub fn piece(self, home: &Affine3A, way: f64, frame: u32) -> Affine3A {
         if !matches!(self, Self::Piece | Self::All) {
             return *home;
         }
@@ -47,7 +47,7 @@ impl Motion {
         let home = in_64_bits(home);
         let moved = DAffine3 {
             matrix3: turn * home.matrix3,
-            translation: home.translation + part * DVec3::Z,
+            translation: home.translation + part * way * DVec3::Z,
         };
         in_32_bits(&moved)
     }
@@ -74,6 +74,15 @@ pub fn moving(scene: &Scene) -> usize {
     };
     let last = scene.instances.len() - 1;
     (0..=last).find(is_queen).unwrap_or(last)
+}
+
+/// The length of its way: a square of the chess board, or a twelfth of another scene's longest side.
+pub fn way(scene: &Scene) -> f64 {
+    if scene.model.meshes[scene.instances[moving(scene)].mesh].name == "queen" {
+        return 1.0;
+    }
+    let (low, high) = scene.bounds();
+    f64::from((high - low).max_element()) / 12.0
 }
 
 common::shader_struct! {

@@ -89,6 +89,8 @@ pub struct Given<'a> {
     pub tests: Tests,
     /// The longest history, in frames; 1 for none.
     pub memory: u32,
+    /// The length of a history that is shown as white.
+    pub white: u32,
     /// Number of passes of the filter.
     pub filters: u32,
 }
@@ -107,13 +109,19 @@ pub fn count(filters: u32) -> u32 {
     3 + filters
 }
 
+/// The names of the passes.
+pub fn names(filters: u32) -> Vec<&'static str> {
+    let filters = vec!["filter"; filters as usize];
+    [vec!["history", "variance"], filters, vec!["compose"]].concat()
+}
+
 impl Passes {
     /// Records a pass: the history, the variance, so many of the filter, and the composition.
     ///
     /// # Errors
     /// If its pipeline cannot be built.
     pub fn record(&mut self, frame: &Frame, number: u32, given: &Given) -> Result<()> {
-        let (scene, memory) = (&given.levels.scene, given.memory);
+        let scene = &given.levels.scene;
         let (textures, pixels) = (&scene.textures, given.pixels.addresses());
         let apart = 2.0 * given.camera.right.length() / given.pixels.size.x as f32;
         let eye = Eye { origin: given.camera.origin, apart };
@@ -130,7 +138,7 @@ impl Passes {
                 pixels,
                 back: given.back,
                 moving: given.levels.moving as u32,
-                memory,
+                memory: given.memory,
                 rounding: given.levels.rounding,
             };
             let Variant { pipeline, .. } =
@@ -158,6 +166,7 @@ impl Passes {
             let from = between(given.filters);
             let Variant { pipeline, .. } =
                 self.compose.choose(frame, textures, given.tests.show, compose_pass)?;
+            let memory = given.white;
             let compose = Compose { scene: scene.addresses, pixels, from, memory };
             pipeline.bind(frame.cmd, &picture, &compose)?;
             pipeline.dispatch(frame.cmd, frame.area);

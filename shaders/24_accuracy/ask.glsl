@@ -28,6 +28,12 @@
 #elif PRIMITIVE == PRIMITIVE_ACCUMULATION
 #include "ask_accumulation.glsl"
 #define ASK ask_accumulation
+#elif PRIMITIVE == PRIMITIVE_CONE
+#include "ask_cone.glsl"
+#define ASK ask_cone
+#elif PRIMITIVE == PRIMITIVE_QUADRIC
+#include "ask_quadric.glsl"
+#define ASK ask_quadric
 #endif
 
 #ifdef FLOAT64
@@ -43,6 +49,12 @@
 #elif PRIMITIVE == PRIMITIVE_CAPSULE
 #include "ask_capsule_f64.glsl"
 #define ASK_FLOAT64 ask_capsule_f64
+#elif PRIMITIVE == PRIMITIVE_CONE
+#include "ask_cone_f64.glsl"
+#define ASK_FLOAT64 ask_cone_f64
+#elif PRIMITIVE == PRIMITIVE_QUADRIC
+#include "ask_quadric_f64.glsl"
+#define ASK_FLOAT64 ask_quadric_f64
 #endif
 #endif
 

@@ -69,13 +69,13 @@ Answer sum_on(uint rung, Query query, Numbers numbers, uint from, uint until, An
     if (from == 0) {
         before = NO_HIT;
     }
-    Sums sums = Sums(before.point.x, before.point.yz, FixedSum(before.hit, before.steps));
+    Sums sums = Sums(before.point.x, before.point.yz, FixedSum(before.hit, before.count));
     add_samples(rung, sequence, from, until, sums);
     Answer answer = NO_HIT;
     answer.t = mean_by(rung, sequence, sums);
     answer.point = vec3(sums.sum, sums.kahan);
     answer.hit = sums.fixed_sum.high;
-    answer.steps = sums.fixed_sum.low;
+    answer.count = sums.fixed_sum.low;
     return answer;
 }
 

@@ -10,7 +10,7 @@ Answer ask_heightfield(uint rung, Query query, Numbers numbers) {
     HeightfieldHit hit =
         heightfield_by(rung, shape, query.origin, query.direction, query.tmin, query.tmax);
     Answer answer = NO_HIT;
-    answer.steps = hit.steps;
+    answer.count = hit.steps;
     if (hit.met) {
         vec3 point = query.origin + hit.t * query.direction;
         answer.hit = 1;

@@ -41,5 +41,5 @@ void main() {
     push.answers.at[i].t = payload.t;
     push.answers.at[i].normal = payload.normal;
     push.answers.at[i].point = point;
-    push.answers.at[i].steps = 0;
+    push.answers.at[i].count = 0;
 }

@@ -46,15 +46,6 @@ bool goes_on(inout Path path) {
     return true;
 }
 
-// The density of `kept_above(cosine_direction(u, normal), up)`: of a direction, and of the one that is
-// mirrored to it.
-float likelihood(vec3 direction, vec3 normal, vec3 up) {
-    float above = dot(direction, up);
-    vec3 other = direction - 2.0 * above * up;
-    float both = max(dot(direction, normal), 0.0) + max(dot(other, normal), 0.0);
-    return above > 0.0 ? both / 3.14159265 : 0.0;
-}
-
 // The part of an emitter's light that a ray of the path counts if it hits it. Shadow rays count the rest.
 float part_by_chance(Path path, Ray ray, Hit hit) {
     if (ESTIMATOR == ESTIMATOR_BSDF || path.density == NO_OTHER) {

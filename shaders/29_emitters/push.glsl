@@ -3,16 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/pixel_sum.glsl"
-#include "common/emitter.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer EmitterAddresses {
-    Emitters emitters;    // all spheres, then the triangles of each mesh that shines
-    Columns columns;
-    Numbers first;        // of each instance: which emitter its triangle 0 is
-    Numbers sphere_ids;   // primitive i of the build is sphere sphere_ids.at[i]
-    uint count;           // of the emitters
-    uint column_count;    // a power of two, or 0 where nothing shines
-};
+#include "common/emitter_list.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

@@ -17,7 +17,7 @@ const float KERNEL[3] = float[](0.375, 0.25, 0.0625);
 
 // ANCHOR: filter
 // One pass: 24 pixels around this one move its light towards theirs, each by a weight that is the same in the other
-// direction. So what one gains another loses: the sum over the picture stays the same.
+// direction. So what one gains another loses: the sum of all light stays the same, before colours are multiplied.
 void main() {
     uvec2 id = gl_GlobalInvocationID.xy;
     uvec2 size = push.pixels.size;

@@ -1,7 +1,7 @@
 // The first hit of a path: the surface whose light is kept from frame to frame.
 
-// The sine of the largest angle between a triangle and the normals of its corners, in the mesh's space: 0 where the
-// surface is flat.
+// The sine of the largest angle between a triangle and the normals of its corners: 0 where the surface is flat. It is
+// that of the mesh's own space, so an instance may be turned and enlarged, but not stretched.
 float bend(Hit hit) {
     InstanceRecord instance = push.scene.instances.at[hit.instance];
     uvec3 corner = instance.triangles.at[hit.triangle];

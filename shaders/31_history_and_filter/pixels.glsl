@@ -1,4 +1,5 @@
 // The state of a pixel, 92 bytes: two surfaces, two estimates, a colour, and an estimate for the filter.
+#include "common/octahedron.glsl"
 
 // ANCHOR: surface
 struct Seen {
@@ -44,28 +45,8 @@ float bend_of(Seen surface) {
 }
 
 uint packed_rest(uint instance, uint length, float bend) {
-    return instance << 16 | length << 8 | uint(ceil(255.0 * bend));
-}
-
-// The distance between a unit normal and its unpacked form is smaller: 16 bits are off by 2^-16 in each of two
-// coordinates, and the octahedron maps these to at most sqrt(3) times as much.
-const float PACKING = 5e-5;
-
-// A unit vector as a point of an octahedron, unfolded to a square (Meyer and others, "On Floating-Point
-// Normal Vectors", 2010).
-uint packed(vec3 normal) {
-    vec2 at = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
-    vec2 folded = (1.0 - abs(at.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(at, vec2(0.0)));
-    ivec2 parts = ivec2(round(32767.0 * clamp(normal.z < 0.0 ? folded : at, -1.0, 1.0)));
-    return uint(parts.x) & 0xffffu | uint(parts.y) << 16;
-}
-
-vec3 unpacked(uint normal) {
-    vec2 at = vec2(int(normal << 16) >> 16, int(normal) >> 16) / 32767.0;
-    vec3 on = vec3(at, 1.0 - abs(at.x) - abs(at.y));
-    float below = max(-on.z, 0.0);
-    on.xy -= below * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(on.xy, vec2(0.0)));
-    return normalize(on);
+    // Less than a thousandth of a unit is rounding, as on a flat surface that is tilted; PACKING has room for it.
+    return instance << 16 | length << 8 | uint(ceil(max(255.0 * bend - 1e-3, 0.0)));
 }
 
 // Ten bits per channel, and none is 0: light is divided by the colour.

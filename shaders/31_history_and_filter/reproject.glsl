@@ -1,4 +1,5 @@
 // The place of a surface in the last frame's picture.
+#include "common/project.glsl"
 
 // ANCHOR: reproject
 // The rigid motion that takes a piece from where it is to where it was: the columns of a matrix.
@@ -10,16 +11,6 @@ struct Back {
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Backs { Back at[]; };
-
-// The point of a picture, in pixels, where a camera sees a point of the world. False if it lies behind the camera.
-bool project(CameraBasis camera, vec3 world, uvec2 size, out vec2 point) {
-    vec3 from_eye = world - camera.origin;
-    float depth = dot(from_eye, camera.forward);
-    vec2 side = vec2(dot(from_eye, camera.right), -dot(from_eye, camera.up));
-    vec2 scale = vec2(dot(camera.right, camera.right), dot(camera.up, camera.up));
-    point = (0.5 + 0.5 * side / (scale * depth)) * vec2(size);
-    return depth > 0.0;
-}
 // ANCHOR_END: reproject
 
 // The distance on a plane between the rays of pixels that are neighbours, one of them across a corner.

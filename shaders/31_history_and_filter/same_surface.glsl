@@ -13,12 +13,12 @@ const uint REASONS = 5;
 
 // ANCHOR: same
 // Why the last frame's pixel `tap` does not show the surface `here`, whose position and normal are those it had then.
-// `reach` is the footprint of either. If both lie on one triangle, or on two that share an edge:
+// `reach` is the footprint of either. If both lie on one triangle, or on two that share an edge and its normals:
 //
 // - A triangle and its corners' normals form an angle whose sine is at most `bend`. From the normal of one point to
 //   the shared edge's, the other triangle's and the other point's, there are four such angles.
 // - Of the way between the points, one part lies in the first triangle, tilted against the normal by one such
-//   angle, the other in the second triangle, tilted by three; and no part is longer than its footprint.
+//   angle, the other in the second triangle, tilted by three. To first order no part is longer than its footprint.
 uint reason(Seen here, vec3 normal, Seen tap, vec2 reach, float rounding) {
     if (INSTANCE_TEST && instance_of(tap) != instance_of(here) || instance_of(tap) == NOTHING) {
         return OTHER;

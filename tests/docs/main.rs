@@ -2,6 +2,7 @@
 
 mod author;
 mod exercises;
+mod features;
 mod fixture;
 mod hard;
 mod merge;

@@ -44,6 +44,9 @@ pub fn hold_errors(report: &Value) {
             _ => {
                 let name = format!("24_accuracy/{shape}_errors");
                 expected::hold(&name, errors(ladder).into());
+                if COUNTED.contains(&shape) {
+                    expected::hold(&format!("24_accuracy/{shape}_right"), right(ladder).into());
+                }
             }
         }
     }
@@ -147,6 +150,23 @@ fn errors(ladder: &[Value]) -> Table {
             }
             let head = head(&[family, text(rung, "rung"), text(&row.0, "way")]);
             table.extend(keys.map(|key| (format!("{head}.{key}"), row.0[key].clone())));
+        }
+    }
+    table
+}
+
+/// Shapes whose rungs say how often a ray meets them.
+const COUNTED: [&str; 2] = ["cone", "quadric"];
+
+/// The share of right answers by family and rung: hit or miss, the number of hits, and t to 1,000 ULP.
+fn right(ladder: &[Value]) -> Table {
+    let mut table = Table::new();
+    for rung in ladder {
+        for row in rows(rung).filter(|row| is_own(rung, row)) {
+            let wrong = ["far_off", "not_finite", "miscounted"].map(|key| row.number(key));
+            let wrong = row.wrong() + wrong.iter().sum::<f64>();
+            let name = format!("{}.{}", head(&[text(&row.0, "family")]), text(rung, "rung"));
+            table.insert(name, (1.0 - (wrong / row.number("rays")).min(1.0)).into());
         }
     }
     table

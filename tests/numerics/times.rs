@@ -9,13 +9,27 @@ use crate::unwatched;
 /// The clock and the compiler agree within this factor.
 const AGREE: f64 = 1.5;
 
+/// The ladders that one run times, so that the page can compare them.
+const FIRST: [&str; 9] = [
+    "sphere",
+    "box",
+    "plane",
+    "triangle",
+    "capsule",
+    "instance",
+    "heightfield",
+    "secondary origin",
+    "accumulation",
+];
+
 /// One run measures all times, so that they can be compared; with `FIGURES`, it also draws the plots.
 #[test]
 #[ignore = "by hand: takes times, for minutes"]
 fn every_rung_is_timed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");
-    let output = unwatched(&["--measure", place]);
+    let only = FIRST.into_iter().flat_map(|name| ["--only", name]);
+    let output = unwatched(&["--measure", place].into_iter().chain(only).collect::<Vec<_>>());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let report = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("it is there");
     let report: Value = serde_json::from_str(&report).expect("JSON");
@@ -26,6 +40,19 @@ fn every_rung_is_timed() {
             std::fs::copy(folder.path().join(format!("{plot}.png")), to).expect("a plot");
         }
     }
+}
+
+/// Cones and quadrics have a run of their own.
+#[test]
+#[ignore = "by hand: takes times, for minutes"]
+fn cones_and_quadrics_are_timed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let place = folder.path().to_str().expect("a temporary folder has a plain name");
+    let output = unwatched(&["--measure", place, "--only", "cone", "--only", "quadric"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("it is there");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    expected::give_timed("24_accuracy/root_times", times(&report).into());
 }
 
 fn times(report: &Value) -> Table {

@@ -34,13 +34,15 @@ fn the_picture_is_the_golden_one_and_repeats() {
 /// A primitive, its simplest rung, and its best.
 type Ladder = (&'static str, &'static str, &'static str);
 
-const LADDERS: [Ladder; 5] = [
+const LADDERS: [Ladder; 7] = [
     ("sphere", "textbook", "two-float"),
     ("plane", "POV form", "two-float"),
     ("box", "reciprocal", "two-float"),
     ("capsule", "textbook", "two-float"),
     // Its simplest rung has large errors, but hits the right ellipsoid.
     ("instance", "matrix", "two-float"),
+    ("cone", "textbook", "two-float"),
+    ("quadric", "textbook", "two-float"),
 ];
 
 #[test]

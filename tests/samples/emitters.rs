@@ -2,7 +2,7 @@
 
 pub mod caught;
 mod choosing;
-mod closed_forms;
+pub mod closed_forms;
 mod directions;
 mod plots;
 

@@ -125,7 +125,7 @@ fn a_wrong_sky_is_refused_in_a_line() {
         (path("none.exr"), "there is no such file"),
         (path(""), "is not a file that can be read"),
         (path("cut.exr"), "it is damaged or cut off"),
-        (path("a.png"), "is not an EXR file; a sky is an .exr"),
+        (path("a.png"), "is not an EXR file; save it as .exr"),
     ] {
         let (code, line) = refused(NAME, &["--headless", "--sky", &file]);
         assert!(code == 1 && line.contains(words), "{line}");

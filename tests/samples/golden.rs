@@ -58,6 +58,7 @@ golden! {
     ray_query,
     ray_query_raster,
     reflection,
+    reservoirs,
     roots,
     rough_metal,
     sequences,

@@ -5,6 +5,7 @@
 
 mod desk;
 mod failures;
+mod history;
 mod long;
 mod lost;
 mod signals;

@@ -9,7 +9,7 @@ use common::app::{self, Args, Clicked, Picture, Program, Run, RunHooks};
 use common::gpu::GpuOptions;
 use common::output;
 
-use crate::compare::{self, Comparison};
+use crate::compare::{self, Comparison, Reference};
 use crate::options::of_the_book;
 use crate::pixel::{Probe, Which};
 use crate::report::Report;
@@ -21,6 +21,8 @@ pub struct Instruments {
     options: Options,
     /// The compared control, and its values.
     compared: Option<(String, Vec<String>)>,
+    /// The picture that `--against` names.
+    reference: Option<Reference>,
     /// Sums of an earlier run.
     resumed: Option<Sums>,
     gather: Option<Gather>,
@@ -37,7 +39,15 @@ impl Instruments {
     /// Instruments without results yet.
     pub fn new(options: Options) -> Self {
         let probe = options.pixel.pixel.map(|_| Probe::default());
-        Self { options, probe, compared: None, resumed: None, gather: None, comparison: None }
+        Self {
+            options,
+            probe,
+            compared: None,
+            reference: None,
+            resumed: None,
+            gather: None,
+            comparison: None,
+        }
     }
 
     /// Does the work that needs no device; `false` if nothing else is left.
@@ -64,6 +74,8 @@ impl Instruments {
             report.check()?;
             self.resumed = resumed(sums)?;
             self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
+            let against = compare.against.as_deref();
+            self.reference = against.map(|file| Reference::open(file, args.size)).transpose()?;
         } else if report.report.is_some() {
             // One that goes to standard output is no file, which a window refuses itself.
             return Err(UsageError("--report needs --headless".to_owned()).into());
@@ -130,7 +142,7 @@ impl RunHooks for Instruments {
             run.frames.clear();
         }
         if let Some((control, values)) = &self.compared {
-            self.comparison = Some(compare::of_run(run, control, values)?);
+            self.comparison = Some(compare::of_run(run, control, values, self.reference.as_ref())?);
             run.frames = std::iter::once(0..1).collect();
         }
         if let Some(samples) = self.options.sums.samples.clone() {

@@ -59,13 +59,14 @@ impl Options {
         if !options.are_none() {
             options.check(args)?;
         }
-        let Self { report, sums, .. } = &options;
+        let Self { report, sums, compare, .. } = &options;
         let (save, resume) = (sums.save.clone(), sums.resume.clone());
         let outputs = [("--report", report.file().map(Path::to_owned)), ("--save", save)];
         let outputs = outputs.into_iter().filter_map(|(name, file)| Some((name, file?)));
         // Only sums may be written into the file they come from.
         let updated = Some(("--resume", "--save"));
-        let inputs = resume.map(|file| ("--resume", file)).into_iter().collect();
+        let inputs = [("--resume", resume), ("--against", compare.against.clone())];
+        let inputs = inputs.into_iter().filter_map(|(name, file)| Some((name, file?))).collect();
         args.files = Files { inputs, outputs: outputs.collect(), updated };
         Ok(options)
     }
@@ -82,7 +83,7 @@ impl Options {
 pub fn of_the_book(command: Command) -> Command {
     command.mut_arg("scene", |scene| {
         scene.help(
-            "Open this model (.obj) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), \
+            "Open this model (.obj, .gltf, .glb) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), \
              25 also scene files (.toml)",
         )
     })

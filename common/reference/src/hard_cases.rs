@@ -5,9 +5,11 @@ use serde_json::Value;
 
 use super::aabb::Aabb;
 use super::capsule::Capsule;
+use super::cone::Cone;
 use super::heightfield::Heightfield;
 use super::instance::Ellipsoid;
 use super::plane::{Plane, PointPlane};
+use super::quadric::Quadric;
 use super::ray::Ray;
 use super::sphere::Sphere;
 use super::surd::Surd;
@@ -45,6 +47,8 @@ struct Found {
     exact: Option<Surface>,
     plain: Option<Surface>,
     faces: Vec<DVec3>,
+    /// The number of hits, for shapes that count them.
+    count: Option<usize>,
 }
 
 fn trace(case: &Value) -> Option<Found> {
@@ -54,7 +58,7 @@ fn trace(case: &Value) -> Option<Found> {
     }
     let (ray, shape) = (ray(&case["ray"]), &case["shape"]);
     let found = |exact: Option<super::ExactSurface>, plain| {
-        Some(Found { exact: exact.map(|hit| hit.to_f64()), plain, faces: Vec::new() })
+        Some(Found { exact: exact.map(|hit| hit.to_f64()), plain, faces: Vec::new(), count: None })
     };
     match primitive {
         "sphere" => {
@@ -68,7 +72,7 @@ fn trace(case: &Value) -> Option<Found> {
             let faces = exact.as_ref().map(|hit| hit.faces.clone()).unwrap_or_default();
             let exact =
                 exact.map(|hit| Surface { t: Surd::from(hit.t).to_f64(), normal: hit.faces[0] });
-            Some(Found { exact, plain: aabb.intersect(&ray), faces })
+            Some(Found { exact, plain: aabb.intersect(&ray), faces, count: None })
         }
         "plane" => {
             let plane = Plane { normal: vector(&shape["normal"]), distance: number(&shape["d"]) };
@@ -97,21 +101,35 @@ fn trace(case: &Value) -> Option<Found> {
         "capsule" => {
             let (a, b) = (vector(&shape["a"]), vector(&shape["b"]));
             let hit = Capsule { a, b, radius: number(&shape["radius"]) }.intersect(&ray);
-            Some(Found { exact: hit, plain: hit, faces: Vec::new() })
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count: None })
         }
         "instance" => {
             let at = |row: usize, column: usize| number(&shape["object_to_world"][row][column]);
             let column = |k| DVec3::new(at(0, k), at(1, k), at(2, k));
             let linear = DMat3::from_cols(column(0), column(1), column(2));
             let hit = Ellipsoid { linear, translation: column(3) }.intersect(&ray);
-            Some(Found { exact: hit, plain: hit, faces: Vec::new() })
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count: None })
         }
         "heightfield" => {
             let [k, a, fx, fz] = ["k", "a", "fx", "fz"].map(|name| number(&shape[name]));
             let [b, gx, gz, lipschitz] =
                 ["b", "gx", "gz", "lipschitz"].map(|name| number(&shape[name]));
             let hit = Heightfield { k, a, fx, fz, b, gx, gz, lipschitz }.intersect(&ray);
-            Some(Found { exact: hit, plain: hit, faces: Vec::new() })
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count: None })
+        }
+        "cone" => {
+            let radii = [0, 1].map(|i| number(&shape["radii"][i]));
+            let is_closed = shape["closed"].as_bool().expect("closed or open");
+            let cone = Cone { a: vector(&shape["a"]), b: vector(&shape["b"]), radii, is_closed };
+            let (hit, count) = (cone.intersect(&ray), Some(cone.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
+        }
+        "quadric" => {
+            let part = |name: &str| vector(&shape[name]).to_array();
+            let [[a, b, c], [d, e, f], [g, h, i]] = ["square", "mixed", "linear"].map(part);
+            let quadric = Quadric([a, b, c, d, e, f, g, h, i, number(&shape["rest"])]);
+            let (hit, count) = (quadric.intersect(&ray), Some(quadric.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
         }
         other => panic!("{other} is no primitive of this schema"),
     }
@@ -119,6 +137,9 @@ fn trace(case: &Value) -> Option<Found> {
 
 fn check(case: &Value, found: &Found) {
     let (id, expect) = (&case["id"], &case["expect"]);
+    if let Some(count) = found.count {
+        assert_eq!(expect["count"].as_u64(), Some(count as u64), "{id}: the number of hits");
+    }
     match expect["hit"].as_str().unwrap() {
         "yes" => {}
         "no" => {
@@ -141,10 +162,10 @@ fn check(case: &Value, found: &Found) {
     assert!(ulp_error(plain.t as f32, t) <= 0.501, "{id}: {} for {t}", plain.t);
     if let Some(normal) = expect.get("normal") {
         let normal = DVec3::from_array([0, 1, 2].map(|i| answer(&normal[i])));
-        // These three compute the normal in f64, from the exact t.
+        // These compute the normal in f64, from the exact t.
         let primitive = case["primitive"].as_str().unwrap();
         let allowed = match primitive {
-            "capsule" | "instance" | "heightfield" => 1e-9,
+            "capsule" | "cone" | "instance" | "heightfield" | "quadric" => 1e-9,
             _ => 0.0,
         };
         assert!((exact.normal - normal).length() <= allowed, "{id}: normal {}", exact.normal);

@@ -7,6 +7,7 @@
 //! | [`surd`] | `p + q·√r`: the root of a quadratic, a unit normal, compared and rounded exactly |
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
 //! | [`capsule`], [`swept`], [`instance`] | the same for a capsule, a swept sphere, and a sphere under any matrix |
+//! | [`cone`], [`quadric`] | a cone between two discs, which may be a cylinder, and a surface of degree two, exactly |
 //! | [`torus`], [`polynomial`] | the same for a torus, by Sturm's theorem for polynomials with whole coefficients |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
@@ -33,6 +34,7 @@ pub mod aabb;
 pub mod bound;
 pub mod bvh;
 pub mod capsule;
+pub mod cone;
 pub mod crossing;
 mod dot2;
 pub mod heightfield;
@@ -41,6 +43,7 @@ pub mod instance;
 pub mod occlusion;
 pub mod plane;
 pub mod polynomial;
+pub mod quadric;
 pub mod random;
 pub mod rational;
 mod ray;

@@ -75,7 +75,7 @@ pub struct Args {
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model (.obj) instead of the program's own
+    /// Open this model (.obj, .gltf, .glb) instead of the program's own
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 

@@ -31,8 +31,10 @@ pub struct Bands {
     most: f64,
     /// The same for the whole previous picture, if this one is comparable.
     most_before: Option<f64>,
-    /// Milliseconds of each band of this picture.
+    /// Milliseconds of each band of this picture, and then of each pass.
     pub times: Vec<f64>,
+    /// The names of its passes.
+    passes: Vec<&'static str>,
 }
 
 impl Bands {
@@ -42,6 +44,7 @@ impl Bands {
         self.most_before = (like_the_last && complete).then_some(self.most);
         (self.extent, self.row, self.most) = (extent, 0, 0.0);
         self.times.clear();
+        self.passes.clear();
     }
 
     /// Abandons the picture.
@@ -87,6 +90,22 @@ impl Bands {
         self.row += height;
     }
 
+    /// Milliseconds of all bands together and of the passes of each name, in their order; empty if there are no passes.
+    pub fn parts(&self) -> Vec<(&'static str, f64)> {
+        if self.passes.is_empty() {
+            return Vec::new();
+        }
+        let (bands, passes) = self.times.split_at(self.times.len() - self.passes.len());
+        let mut parts = vec![("trace", bands.iter().sum::<f64>())];
+        for (&name, time) in self.passes.iter().zip(passes) {
+            match parts.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum += time,
+                None => parts.push((name, *time)),
+            }
+        }
+        parts
+    }
+
     /// Traces the next band of a frame and returns its time in milliseconds; `None` if no band is left.
     ///
     /// # Errors
@@ -122,10 +141,12 @@ impl Bands {
         tracing::trace!("{} rows: {milliseconds:.1} ms", area.extent.height);
         self.took(area, milliseconds);
         // Passes are no bands: a row that is traced costs what it did.
-        let passes = if self.row == self.extent.height { sample.passes() } else { 0 };
+        if self.row == self.extent.height {
+            self.passes = sample.passes();
+        }
         let whole = vk::Rect2D { extent: self.extent, ..Default::default() };
-        for number in 0..passes {
-            let took = submit(whole, &mut |frame| sample.pass(frame, number))?;
+        for number in 0..self.passes.len() {
+            let took = submit(whole, &mut |frame| sample.pass(frame, number as u32))?;
             self.times.push(took);
             milliseconds += took;
         }
@@ -220,6 +241,14 @@ mod tests {
         let mut bands = Bands::default();
         picture(&mut bands, false, |y| if y == 0 { 900.0 } else { 1e-3 });
         assert_eq!(picture(&mut bands, true, |_| 1e-3).len(), 1);
+    }
+
+    #[test]
+    fn passes_of_one_name_are_added() {
+        let mut bands = Bands { times: vec![1.0, 2.0, 0.25, 0.5, 0.5], ..Bands::default() };
+        assert_eq!(bands.parts(), []);
+        bands.passes = vec!["history", "filter", "filter"];
+        assert_eq!(bands.parts(), [("trace", 3.0), ("history", 0.25), ("filter", 1.0)]);
     }
 
     #[test]

@@ -131,16 +131,16 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// As [`Run::render`], for a separate picture whose bands use the costs in `bands` and whose time is not added
-    /// to [`Run::times`]; returns its milliseconds.
+    /// As [`Run::render`], with the costs in `bands`, and without adding the time to [`Run::times`]; returns its
+    /// milliseconds. The frame is number `index` of a picture that accumulates since number 0.
     ///
     /// # Errors
     /// As [`Run::render`].
-    pub fn time(&mut self, bands: &mut Bands) -> Result<f64> {
+    pub fn time(&mut self, bands: &mut Bands, index: u32) -> Result<f64> {
         self.sample.changed(&self.gpu)?;
         bands.begin(self.image.extent, true);
         let device = (&self.gpu, &self.timer, None);
-        while bands.trace(&mut *self.sample, device, (&self.image, 0, 0))?.is_some() {}
+        while bands.trace(&mut *self.sample, device, (&self.image, index, index))?.is_some() {}
         Ok(bands.times.iter().sum())
     }
 

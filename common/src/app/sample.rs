@@ -49,9 +49,9 @@ pub trait Sample: 'static {
     /// If something is missing and cannot be made.
     fn render(&mut self, frame: &Frame) -> Result<()>;
 
-    /// Number of passes over the whole picture that follow its last band.
-    fn passes(&self) -> u32 {
-        0
+    /// The passes over the whole picture that follow its last band, by name: the panel shows the time of each.
+    fn passes(&self) -> Vec<&'static str> {
+        Vec::new()
     }
 
     /// Records one of these passes into `frame.cmd`. Each is a submission of its own, after everything that bands and
@@ -67,6 +67,12 @@ pub trait Sample: 'static {
     ///
     /// Otherwise an idle window renders nothing.
     fn accumulates(&self) -> bool {
+        false
+    }
+
+    /// Forgets the light of earlier frames, if the sample has any; then true. The next frame begins a new picture,
+    /// which a [`Frame::index`] of 0 does not: the camera may have moved.
+    fn forget(&mut self) -> bool {
         false
     }
 

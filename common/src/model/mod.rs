@@ -3,6 +3,7 @@
 
 mod elements;
 mod encoding;
+mod exr_file;
 mod face;
 mod folder;
 mod glass;
@@ -27,6 +28,7 @@ mod texture;
 mod unseen;
 mod warnings;
 
+pub use exr_file::ExrFile;
 pub use glass::turn_outwards;
 pub use obj::Model;
 pub use texture::Texture;

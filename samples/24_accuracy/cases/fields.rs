@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::{number, vector};
-use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum};
+use crate::shape::{Cone, Gap, Heightfield, Leaving, Pattern, Shape, Sum};
 
 /// Beyond the 2^24 at which a sum of floats stops growing; ten seconds on the software driver.
 const LONGEST_SUM: u32 = 1 << 26;
@@ -104,6 +104,42 @@ pub fn shape(primitive: &str, value: Value) -> Result<Shape> {
         "heightfield" => heightfield(value)?,
         "secondary_origin" => leaving(value)?,
         "accumulation" => sum(value)?,
+        "cone" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                a: [f64; 3],
+                b: [f64; 3],
+                radii: [f64; 2],
+                closed: bool,
+            }
+            let raw: Raw = typed(value)?;
+            let (a, b) = (vector(raw.a)?, vector(raw.b)?);
+            let radii = [number(raw.radii[0])?, number(raw.radii[1])?];
+            ensure!(a != b, "a and b are the same point");
+            ensure!(radii.iter().all(|&r| r >= 0.0), "a radius is below 0");
+            ensure!(radii != [0.0; 2], "both radii are 0");
+            Shape::Cone(Cone { a, b, radii, is_closed: raw.closed })
+        }
+        "quadric" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                square: [f64; 3],
+                mixed: [f64; 3],
+                linear: [f64; 3],
+                rest: f64,
+            }
+            let raw: Raw = typed(value)?;
+            let mut coefficients = [0.0; 10];
+            let given = [raw.square, raw.mixed, raw.linear];
+            let given = given.as_flattened().iter().chain([&raw.rest]);
+            for (to, from) in coefficients.iter_mut().zip(given) {
+                *to = number(*from)?;
+            }
+            ensure!(coefficients[..9] != [0.0; 9], "x, y and z have no coefficient but 0");
+            Shape::Quadric(coefficients)
+        }
         other => bail!("unknown primitive '{other}'"),
     })
 }

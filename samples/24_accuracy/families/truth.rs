@@ -2,12 +2,13 @@
 
 use reference::{ExactSurface, scene::Scene};
 use reference::{
-    aabb::Aabb, capsule::Capsule, heightfield, instance::Ellipsoid, plane, scene, sphere, transform,
+    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, plane, quadric, scene,
+    sphere, transform,
 };
 
 use crate::judge::{Expected, ExpectedHit};
 use crate::query::Ray;
-use crate::shape::{Heightfield, Leaving, Pattern, Shape, Sum, parts};
+use crate::shape::{Cone, Heightfield, Leaving, Pattern, Shape, Sum, parts};
 
 /// The shapes as the reference knows them.
 pub struct Truth<'a> {
@@ -29,6 +30,11 @@ impl<'a> Truth<'a> {
     pub fn of(&self, number: usize, ray: &Ray) -> Expected {
         let exact = ray.exact();
         let surface = |hit: Option<ExactSurface>| hit.map(|hit| hit.to_f64().t);
+        let mut count = None;
+        let mut first = |hits: Vec<f64>| {
+            count = Some(hits.len() as u32);
+            hits.first().copied()
+        };
         let t = match &self.shapes[number] {
             Shape::Sphere { center, radius } => {
                 let (center, radius) = (center.as_dvec3(), (*radius).into());
@@ -68,10 +74,16 @@ impl<'a> Truth<'a> {
                 Some(rise / f64::from(leaving.direction.y))
             }
             Shape::Sum(sum) => Some(mean(sum)),
+            Shape::Cone(cone) => first(exact_cone(cone).hits(&exact)),
+            Shape::Quadric(numbers) => first(quadric::Quadric(numbers.map(f64::from)).hits(&exact)),
         };
         let hit = if t.is_some() { ExpectedHit::Yes } else { ExpectedHit::No };
-        Expected { hit, t, normal: None, faces: Vec::new(), surface: None }
+        Expected { hit, t, normal: None, faces: Vec::new(), surface: None, count }
     }
+}
+
+fn exact_cone(&Cone { a, b, radii, is_closed }: &Cone) -> cone::Cone {
+    cone::Cone { a: a.as_dvec3(), b: b.as_dvec3(), radii: radii.map(f64::from), is_closed }
 }
 
 fn reference(h: &Heightfield) -> heightfield::Heightfield {

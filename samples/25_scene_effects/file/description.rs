@@ -56,6 +56,7 @@ impl<'de> Deserialize<'de> for Sky {
         let value = Value::deserialize(from)?;
         let sky = match value {
             Value::Table(_) => SkyTable::deserialize(value).map(Self::Picture),
+            Value::Array(_) => return Err(D::Error::custom("there is one sky; write it as [sky]")),
             _ => bounded::part(value).map(Self::Brightness),
         };
         sky.map_err(|error| D::Error::custom(error.message()))

@@ -43,7 +43,7 @@ fn a_sky_is_one_picture() {
     );
     check("[sky]\nname = 3\n", "s.toml:6: write a text in quotes here");
     check("[sky]\nfile = \"gone.exr\"\n", "s.toml:6: ");
-    check("[[sky]]\nname = \"day\"\n", "s.toml:6: a list is not a number from 0 to 1");
+    check("[[sky]]\nname = \"day\"\n", "s.toml:6: there is one sky; write it as [sky]");
     assert_eq!(told(&sky("rotation = -90\nbrightness = 0.5")), "");
 }
 

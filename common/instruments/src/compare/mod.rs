@@ -10,7 +10,11 @@
 //! width and height, and timed again: more rays of the same kind. The time is not extrapolated from the small
 //! picture: that leaves most of the GPU idle, so 64 times the rays may take 12 times as long.
 
+mod comparison;
+mod error;
+
 use std::collections::HashMap;
+use std::path::PathBuf;
 
 use anyhow::Result;
 use ash::vk;
@@ -18,7 +22,9 @@ use common::UsageError;
 use common::app::{Bands, Progress, Run, controls};
 use common::gpu::Image;
 use common::output;
-use serde::Serialize;
+
+pub use comparison::{Comparison, Measured, Ratio};
+pub use error::{PictureError, Reference};
 
 /// The shortest launch worth timing, in milliseconds; the picture is enlarged until it takes as long.
 const LEAST: f64 = 5.0;
@@ -37,53 +43,10 @@ pub struct Options {
     /// Time a control's values in turn for --frames rounds, and print a table
     #[arg(long, value_name = "NAME=A|B|…", conflicts_with_all = ["list_controls", "list_records", "animate"])]
     pub compare: Option<String>,
-}
 
-/// A control's values, measured relative to the first.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Comparison {
-    /// The control.
-    pub control: String,
-    /// Number of rounds that were timed, after some frames of warm-up.
-    pub rounds: u32,
-    /// Number of frames rendered, including the warm-up.
-    pub frames: u32,
-    /// The size of the picture, if the device is too fast for the requested one.
-    pub widened: Option<[u32; 2]>,
-    /// The first value relative to itself.
-    pub noise: Ratio,
-    /// Each value, in the order given.
-    pub values: Vec<Measured>,
-}
-
-/// The time of one value.
-#[derive(Clone, Debug, Serialize)]
-pub struct Measured {
-    /// The control's value.
-    pub value: String,
-    /// The median of the device times of a frame, in milliseconds.
-    pub milliseconds: f64,
-    /// Its time divided by the first value's in the same round.
-    pub ratio: Ratio,
-}
-
-/// Quartiles of the rounds' ratios.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Ratio {
-    /// A quarter of the rounds are below.
-    pub low: f64,
-    /// The median.
-    pub median: f64,
-    /// A quarter of the rounds are above.
-    pub high: f64,
-}
-
-impl Ratio {
-    fn of(mut ratios: Vec<f64>) -> Self {
-        ratios.sort_by(f64::total_cmp);
-        let at = |part: usize| ratios.get(ratios.len() * part / 4).copied().unwrap_or_default();
-        Self { low: at(1), median: at(2), high: at(3) }
-    }
+    /// With --compare: the error of each value's picture after --frames frames, against this one
+    #[arg(long, value_name = "FILE.exr", requires = "compare")]
+    pub against: Option<PathBuf>,
 }
 
 /// Splits `NAME=A|B|C`.
@@ -101,11 +64,17 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), UsageError> {
     }
 }
 
-/// Times the values of a control, with as many rounds as the run has frames.
+/// Times the values of a control, with as many rounds as the run has frames, and compares their pictures with the
+/// reference, if there is one.
 ///
 /// # Errors
 /// If the control does not have a value, or the sample or the device fails.
-pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Comparison> {
+pub fn of_run(
+    run: &mut Run,
+    control: &str,
+    values: &[String],
+    reference: Option<&Reference>,
+) -> Result<Comparison> {
     output::warn(&controls::without_effect(std::iter::once(control), |c| run.sample.controls(c)));
     let rounds = run.args.frames;
     let turns = u64::from(rounds) * (values.len() as u64 + 1);
@@ -116,7 +85,12 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
     let mut frame = |run: &mut Run, value: &str| {
         frames += 1;
         controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
-        run.time(bands.entry(value.to_owned()).or_default())
+        let bands = bands.entry(value.to_owned()).or_default();
+        if run.sample.forget() {
+            // The frame that is timed has a history, and it is that of this value.
+            run.time(bands, 0)?;
+        }
+        run.time(bands, 0)
     };
     // A software driver starts at once, and its clock does not rise: any picture is wide enough.
     let mut asked = None;
@@ -149,8 +123,12 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         run.image = asked;
     }
     (comparison.frames, comparison.widened) = (frames, size);
+    if let Some(reference) = reference {
+        reference.compare(run, &mut comparison)?;
+    }
     // The picture of the run is that of the first value, whichever was timed last.
     controls::set_beside(&run.args.sets, control, &values[0], |c| run.sample.controls(c))?;
+    run.sample.forget();
     Ok(comparison)
 }
 
@@ -213,138 +191,16 @@ pub fn compare(
         let mut sorted = times[turn].clone();
         sorted.sort_by(f64::total_cmp);
         let milliseconds = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-        Measured { value: value.clone(), milliseconds, ratio: ratio(turn) }
+        Measured { value: value.clone(), milliseconds, ratio: ratio(turn), ..Measured::default() }
     };
     Ok(Comparison {
         control: control.to_owned(),
         rounds,
-        frames: 0,
-        widened: None,
         noise: ratio(turns.len() - 1),
         values: values.iter().enumerate().map(measured).collect(),
+        ..Comparison::default()
     })
 }
 
-impl Comparison {
-    /// The comparison as a Markdown table, for the pages.
-    pub fn table(&self) -> String {
-        let first = self.values.first().map_or("", |measured| &measured.value);
-        let mut table = format!(
-            "| {} | GPU ms | time / {first} | middle half of {} rounds |\n|---|---|---|---|\n",
-            self.control, self.rounds
-        );
-        let mut row = |name: &str, milliseconds: String, ratio: Ratio| {
-            let Ratio { low, median, high } = ratio;
-            table +=
-                &format!("| {name} | {milliseconds} | {median:.2} | {low:.2} to {high:.2} |\n");
-        };
-        for Measured { value, milliseconds, ratio } in &self.values {
-            row(value, format!("{milliseconds:.1}"), *ratio);
-        }
-        row(&format!("{first} again (noise)"), String::new(), self.noise);
-        if let Some([width, height]) = self.widened {
-            table += &format!(
-                "\n> Launches were widened to {width}x{height}, for one of the size asked for takes less than {LEAST} \
-                 ms: too little to be timed.\n"
-            );
-        }
-        table
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use std::sync::Mutex;
-
-    use clap::FromArgMatches;
-    use common::app::Args;
-    use common::gpu::Gpu;
-    use common::{Controls, Frame, Sample, Setup};
-
-    use super::*;
-
-    #[test]
-    fn ratios_are_of_the_same_round() {
-        // A machine that slows down by half a percent per frame: medians of times would be skewed.
-        let mut slow = 1.0;
-        let comparison = compare("rung", &["a".into(), "b".into()], 30, |value| {
-            slow *= 1.005;
-            Ok(if value == "b" { 2.0 * slow } else { slow })
-        });
-        let comparison = comparison.unwrap();
-        assert!((comparison.values[1].ratio.median - 2.0).abs() < 0.03, "{comparison:?}");
-        assert!((comparison.noise.median - 1.0).abs() < 0.03, "{comparison:?}");
-        assert!(comparison.table().contains("| b |"), "{}", comparison.table());
-    }
-
-    #[test]
-    fn every_value_goes_first_and_last() {
-        let mut order = Vec::new();
-        let values = ["a".to_owned(), "b".to_owned()];
-        compare("rung", &values, 6, |value| {
-            order.push(value.to_owned());
-            Ok(1.0)
-        })
-        .unwrap();
-        // Two warm-up frames for each.
-        let rounds: Vec<_> = order[4..].chunks(3).map(|round| round[0].as_str()).collect();
-        assert!(rounds.contains(&"a") && rounds.contains(&"b"), "{rounds:?}");
-    }
-
-    #[test]
-    fn a_comparison_needs_a_name_and_two_values() {
-        assert_eq!(parse("mode=a| b c").unwrap(), ("mode".into(), vec!["a".into(), "b c".into()]));
-        for wrong in ["mode", "mode=a", "=a|b"] {
-            assert!(parse(wrong).unwrap_err().0.contains("NAME=A|B"), "{wrong}");
-        }
-    }
-
-    /// A sample that records the builds and frames requested of it.
-    #[derive(Default)]
-    struct Noting {
-        preset: u32,
-        height: u32,
-    }
-
-    static NOTES: Mutex<Vec<String>> = Mutex::new(Vec::new());
-
-    impl Sample for Noting {
-        fn new(_: &Gpu, _: &Setup) -> Result<Self> {
-            Ok(Self::default())
-        }
-
-        fn controls(&mut self, c: &mut Controls) {
-            if c.integer("preset", &mut self.preset, 0..=9) {
-                self.height = 10 * self.preset;
-            }
-            c.integer("height", &mut self.height, 0..=99);
-        }
-
-        fn changed(&mut self, _: &Gpu) -> Result<()> {
-            NOTES.lock().unwrap().push(format!("build {}, {}", self.preset, self.height));
-            Ok(())
-        }
-
-        fn render(&mut self, frame: &Frame) -> Result<()> {
-            NOTES.lock().unwrap().push(format!("frame {}", frame.index));
-            Ok(())
-        }
-    }
-
-    #[test]
-    fn what_a_value_asks_for_is_built_before_its_frame() {
-        let arguments = ["test", "--headless", "--size", "8x8", "--compare", "preset=1|2"];
-        let found = crate::command().try_get_matches_from(arguments).unwrap();
-        let args = Args::from_arg_matches(&found).unwrap();
-        let options = crate::Options::from_arg_matches(&found).unwrap();
-        crate::start::<Noting>("test", &args, options).unwrap();
-        let mut notes = std::mem::take(&mut *NOTES.lock().unwrap());
-        // `render` is called once per band.
-        notes.dedup();
-        for pair in notes.chunks(2) {
-            assert!(pair[0].starts_with("build ") && pair[1] == "frame 0", "{pair:?}");
-        }
-        let built = |note: &&String| note.starts_with("build 2, 20");
-        assert!(notes[0] == "build 1, 10" && notes.iter().any(|note| built(&note)), "{notes:?}");
-    }
-}
+mod tests;

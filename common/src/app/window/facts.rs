@@ -15,6 +15,8 @@ pub struct Facts {
     pub arithmetic: &'static str,
     /// Device time of the last picture, in milliseconds.
     pub milliseconds: f64,
+    /// The parts of that time, by name, if the sample has passes.
+    pub parts: Vec<(&'static str, f64)>,
     /// The last picture's width and height.
     pub rendered: [u32; 2],
     /// The window's.

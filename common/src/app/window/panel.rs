@@ -192,12 +192,13 @@ impl Panel {
         } else {
             format!("{width} × {height}   {percent:.0} %")
         };
-        let mut lines = vec![
-            ("GPU time", format!("{:.1} ms", facts.milliseconds)),
-            ("primary rays", rays(facts.rays())),
-            ("picture", size),
-        ];
-        lines.extend(facts.accumulated.map(|count| ("accumulated", count.to_string())));
+        let mut lines = vec![("GPU time".to_owned(), format!("{:.1} ms", facts.milliseconds))];
+        let parts = facts.parts.iter();
+        lines.extend(parts.map(|(name, time)| (format!("   {name}"), format!("{time:.2} ms"))));
+        lines.push(("primary rays".to_owned(), rays(facts.rays())));
+        lines.push(("picture".to_owned(), size));
+        let accumulated = facts.accumulated.map(|count| count.to_string());
+        lines.extend(accumulated.map(|count| ("accumulated".to_owned(), count)));
         rows::grid("measured").spacing([10.0, 3.0]).show(ui, |ui| {
             for (name, value) in lines {
                 ui.colored_label(style::DIM, name);

@@ -46,6 +46,8 @@ pub struct View {
     pub pictures: u32,
     changed: bool,
     milliseconds: f64,
+    /// The parts of that time.
+    parts: Vec<(&'static str, f64)>,
     full: vk::Extent2D,
     shot: Shot,
     background: Arc<Background>,
@@ -75,6 +77,7 @@ impl View {
             pictures: 0,
             changed: true,
             milliseconds: 0.0,
+            parts: Vec::new(),
             full: nothing,
             shot: Shot::default(),
             background: Arc::default(),
@@ -277,6 +280,7 @@ impl View {
         std::mem::swap(&mut self.image, &mut self.next);
         self.pictures += 1;
         self.milliseconds = std::mem::take(&mut self.spent);
+        self.parts = self.bands.parts();
         let extent = self.image.extent;
         let pixels = u64::from(extent.width) * u64::from(extent.height);
         let telling = self.pace.took(pixels, self.milliseconds);
@@ -292,6 +296,7 @@ impl View {
     pub fn facts(&self, facts: &mut Facts) {
         let pair = |extent: vk::Extent2D| [extent.width, extent.height];
         facts.milliseconds = self.milliseconds;
+        facts.parts.clone_from(&self.parts);
         (facts.rendered, facts.full) = (pair(self.image.extent), pair(self.full));
         facts.accumulated = self.sample.accumulates().then_some(self.index + 1);
     }

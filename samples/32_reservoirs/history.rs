@@ -1,0 +1,46 @@
+//! The last frame, as far as the next one needs to know it.
+
+use glam::UVec2;
+
+use super::passes::{Reuse, Weights};
+use super::scenes::SceneName;
+use super::{Demo, Push};
+
+/// All that decides whether the last frame's reservoirs may be used. The camera is not part of it.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Valid {
+    weights: Weights,
+    visibility: bool,
+    name: SceneName,
+    reuse: Reuse,
+    candidates: u32,
+    seed: u32,
+    size: UVec2,
+}
+
+impl Valid {
+    /// For a frame with these controls.
+    pub fn of(demo: &Demo) -> Self {
+        Self {
+            weights: demo.constants.weights,
+            visibility: demo.constants.visibility,
+            name: demo.name,
+            reuse: demo.reuse,
+            candidates: demo.candidates,
+            seed: demo.seed,
+            size: demo.pixels.size,
+        }
+    }
+}
+
+/// A frame.
+pub struct Done {
+    /// What the next frame must have in common with it.
+    pub valid: Valid,
+    /// Its push constants.
+    pub push: Push,
+    /// Number of frames since the history began.
+    pub age: u32,
+    /// Whether all its pipelines are those of the same controls: in a window, one may still be the old one.
+    pub is_whole: bool,
+}
