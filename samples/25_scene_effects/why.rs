@@ -137,7 +137,7 @@ impl RunHooks for Table {
         let without = timed(run, "without", &needed)?;
         let also = timed(run, "also", &others)?;
         let pipelines = ["specialised", "everything"].map(str::to_owned);
-        let pipelines = compare::of_run(run, "pipeline", &pipelines)?;
+        let pipelines = compare::of_run(run, "pipeline", &pipelines, None)?;
         let compiled = instructions(run);
         let counts = compiled.as_deref().unwrap_or_default();
         let rows: Vec<Row> = reasons
@@ -172,7 +172,7 @@ fn timed(run: &mut Run, control: &str, effects: &[&Reason]) -> Result<Option<Com
     if effects.is_empty() {
         return Ok(None);
     }
-    compare::of_run(run, control, &values).map(Some)
+    compare::of_run(run, control, &values, None).map(Some)
 }
 
 /// Milliseconds that a change adds to a frame; `None` if noise is as large.

@@ -25,10 +25,11 @@ use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
     barrier,
 };
+use common::output;
 use common::scene::{Camera, CameraBasis, SceneAddresses};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use emitters::EmitterAddresses;
-use glam::{DMat3, UVec2};
+use glam::{DMat3, UVec2, Vec3};
 use history::{Done, Valid};
 use lit_scene::LitScene;
 use passes::{Passes, Reuse, Show, Weights};
@@ -101,6 +102,10 @@ impl Sample for Demo {
         let (source, name) = match setup.scene() {
             Some(_) => {
                 let scene = setup.scene_or(|| unreachable!("there is a file"))?;
+                if scene.model.materials.iter().all(|material| material.emission == Vec3::ZERO) {
+                    let line = "the scene has no lamp, so nothing lights it here: a lamp is a material with Ke";
+                    output::warn(&[line.to_owned()]);
+                }
                 (Staged::from_file(scene), SceneName::Chess)
             }
             None => (scenes::chess()?, SceneName::ManyLamps),
@@ -243,7 +248,8 @@ impl Sample for Demo {
     }
 
     fn gathers(&self) -> bool {
-        !self.reuse.is_in_time()
+        // The camera turns from frame to frame of one picture.
+        !self.reuse.is_in_time() && self.turn == 0.0
     }
 }
 

@@ -73,6 +73,8 @@ impl Panorama {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
+
     use super::*;
     use crate::app::Picture;
 
