@@ -14,7 +14,7 @@ const LONG: u8 = 84;
 const SHORT: u8 = 49;
 
 #[test]
-#[ignore = "nightly: waits for long histories; quick: history_and_filter::exact::a_still_history_is_the_mean_of_its_frames"]
+#[ignore = "nightly: waits for long histories; quick: samples history_and_filter::exact::a_still_history_is_the_mean_of_its_frames"]
 fn a_history_outlives_no_resize_and_no_reload() {
     let _alone = alone();
     let sets = [
