@@ -35,12 +35,12 @@ impl Valid {
 
 /// A frame.
 pub struct Done {
-    /// What the next frame must have in common with it.
+    /// The settings that the next frame must share.
     pub valid: Valid,
     /// Its push constants.
     pub push: Push,
     /// Number of frames since the history began.
     pub age: u32,
-    /// Whether all its pipelines are those of the same controls: in a window, one may still be the old one.
+    /// True if all its pipelines belong to the same controls: in a window, one may still be the old one.
     pub is_whole: bool,
 }

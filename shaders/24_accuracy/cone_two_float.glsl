@@ -50,7 +50,7 @@ struct Chord {
     bool is_point;
 };
 
-// Whether the chord is farther along the line than x, which is not on it.
+// True if the chord is farther along the line than x, which is not on it.
 bool is_beyond(Chord chord, vec2 x) {
     return chord.has_first && (!chord.has_last || ff_less(x, chord.middle));
 }

@@ -21,7 +21,7 @@ Light arriving(Receiver receiver, uint index, uint at) {
     return Light(radiance * density * max(aim.angle, 0.0), aim.to);
 }
 
-// What a sample is chosen by: the brightness of its light, without the shadow.
+// The target: a sample is chosen by the brightness of its light, without the shadow.
 float brightness(Light light) {
     float value = dot(light.color, vec3(0.2126, 0.7152, 0.0722));
     // Weights divide by it, and their quotients must be finite.

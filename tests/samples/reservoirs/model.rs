@@ -7,17 +7,17 @@ use std::collections::BTreeMap;
 
 use dashu::rational::RBig;
 
-/// What each pixel could be lit by.
+/// The lamps that could light each pixel.
 pub struct World {
     /// The probability of each lamp as a candidate.
     pub chosen: Vec<RBig>,
     /// The light of each lamp at each pixel, without shadows: `light[pixel][lamp]`.
     pub light: Vec<Vec<RBig>>,
-    /// Whether the pixel sees the lamp.
+    /// True if the pixel sees the lamp.
     pub seen: Vec<Vec<bool>>,
 }
 
-/// How a sample is weighted that several reservoirs could have made.
+/// The weight of a sample that several reservoirs could have made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weights {
     OneOverM,

@@ -1,4 +1,4 @@
-//! What reuse saves and costs: error in the same time, and how the noise of neighbours and of frames grows alike.
+//! The gain and the cost of reuse: error in the same time, and how the noise of neighbours and of frames grows alike.
 //! `cargo test --test samples reservoirs::plots -- --ignored --nocapture`.
 
 use common::app::Picture;

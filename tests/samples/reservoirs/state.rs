@@ -21,7 +21,7 @@ fn counts_are_those_of_the_frames_up_to_the_cap() {
     ] {
         let counts = counts(&sets, frames);
         assert!(counts.len() > 1500, "{}", counts.len());
-        // A surface seen at its edge may have begun anew.
+        // A surface seen at its edge may have started again.
         let same = counts.iter().filter(|&&count| count == expected).count();
         assert!(same * 100 > counts.len() * 99, "{sets:?}: {same} of {}", counts.len());
         assert!(counts.iter().all(|&count| count <= expected), "{sets:?}");
