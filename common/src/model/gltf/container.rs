@@ -106,7 +106,8 @@ pub(super) fn parse(json: &[u8], is_text: bool, memory: u64) -> Result<Root> {
         gigabytes(need),
         gigabytes(memory)
     );
-    serde_json::from_slice(json).or_else(|error| mended(json).ok_or(error)).map_err(|error| {
+    // Not `serde_json::from_slice`, which would be compiled anew here for each of glTF's two hundred types.
+    Root::from_slice(json).or_else(|error| mended(json).ok_or(error)).map_err(|error| {
         if let Some(old) = version(json).filter(|version| !version.starts_with("2.")) {
             return anyhow!("{}", other_version(&old));
         }
@@ -139,7 +140,7 @@ fn mended(json: &[u8]) -> Option<Root> {
     root.insert("scenes".to_owned(), Value::Array(scenes));
     let still = serde_json::json!({"channels": [], "samplers": []});
     root.insert("animations".to_owned(), Value::Array(vec![still; animations]));
-    serde_json::from_value(value).ok()
+    Root::from_slice(&serde_json::to_vec(&value).ok()?).ok()
 }
 
 /// The version that a JSON part states, if only that can be read.
