@@ -3,6 +3,7 @@
 mod curved;
 mod departures;
 mod flat;
+mod ruled;
 mod smooth;
 mod truth;
 
@@ -63,6 +64,7 @@ impl Family {
             Primitive::Accumulation => sums(),
             Primitive::Cone => curved::cones(draw),
             Primitive::Quadric => curved::quadrics(draw),
+            Primitive::Patch => ruled::patches(draw),
         }
     }
 

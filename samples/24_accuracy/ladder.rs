@@ -17,10 +17,11 @@ pub enum Primitive {
     Accumulation,
     Cone,
     Quadric,
+    Patch,
 }
 
 impl Primitive {
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Sphere,
         Self::Box,
         Self::Plane,
@@ -32,6 +33,7 @@ impl Primitive {
         Self::Accumulation,
         Self::Cone,
         Self::Quadric,
+        Self::Patch,
     ];
 
     pub fn name(self) -> &'static str {
@@ -47,6 +49,7 @@ impl Primitive {
             Self::Accumulation => "accumulation",
             Self::Cone => "cone",
             Self::Quadric => "quadric",
+            Self::Patch => "patch",
         }
     }
 
@@ -68,6 +71,7 @@ impl Primitive {
             Self::Accumulation => &ACCUMULATION,
             Self::Cone => &CONE,
             Self::Quadric => &QUADRIC,
+            Self::Patch => &PATCH,
         }
     }
 }
@@ -227,4 +231,11 @@ static QUADRIC: [Rung; 4] = [
     top(exact("Q2", "two-float", 2)),
     // Along an asymptote the coefficient of t² needs more than 53 bits.
     Rung { is_top: false, ..float64("Q3", 3) },
+];
+
+static PATCH: [Rung; 4] = [
+    rung("L0", "textbook", 0),
+    rung("L1", "stable", 1),
+    top(exact("L2", "two-float", 2)),
+    float64("L3", 3),
 ];

@@ -7,7 +7,7 @@ use crate::ladder::Primitive;
 use crate::shape::{Cone, Heightfield, Leaving, Shape};
 
 /// Primitives that can be looked at; a sum cannot.
-pub const PRIMITIVES: [Primitive; 10] = [
+pub const PRIMITIVES: [Primitive; 11] = [
     Primitive::Sphere,
     Primitive::Box,
     Primitive::Plane,
@@ -18,6 +18,7 @@ pub const PRIMITIVES: [Primitive; 10] = [
     Primitive::SecondaryOrigin,
     Primitive::Cone,
     Primitive::Quadric,
+    Primitive::Patch,
 ];
 
 /// Towards the sun.
@@ -76,6 +77,13 @@ impl Specimen {
             Primitive::Quadric => {
                 Shape::Quadric([4.0, -1.0, 4.0, 0.0, 0.0, 1.0, 0.0, 0.25, 0.0, -1.0])
             }
+            // So steep that a part of it is hidden behind its own fold.
+            Primitive::Patch => Shape::Patch([
+                Vec3::new(-0.625, -0.5, 0.75),
+                Vec3::new(0.75, -0.625, -0.75),
+                Vec3::new(-0.5, 0.625, -0.875),
+                Vec3::new(0.5, 0.5, 0.75),
+            ]),
             Primitive::SecondaryOrigin => Shape::Leaving(Leaving {
                 center: Vec3::ZERO,
                 radius: 1.0,

@@ -34,6 +34,9 @@
 #elif PRIMITIVE == PRIMITIVE_QUADRIC
 #include "ask_quadric.glsl"
 #define ASK ask_quadric
+#elif PRIMITIVE == PRIMITIVE_PATCH
+#include "ask_patch.glsl"
+#define ASK ask_patch
 #endif
 
 #ifdef FLOAT64
@@ -55,6 +58,9 @@
 #elif PRIMITIVE == PRIMITIVE_QUADRIC
 #include "ask_quadric_f64.glsl"
 #define ASK_FLOAT64 ask_quadric_f64
+#elif PRIMITIVE == PRIMITIVE_PATCH
+#include "ask_patch_f64.glsl"
+#define ASK_FLOAT64 ask_patch_f64
 #endif
 #endif
 

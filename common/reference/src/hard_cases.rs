@@ -8,6 +8,7 @@ use super::capsule::Capsule;
 use super::cone::Cone;
 use super::heightfield::Heightfield;
 use super::instance::Ellipsoid;
+use super::patch::Patch;
 use super::plane::{Plane, PointPlane};
 use super::quadric::Quadric;
 use super::ray::Ray;
@@ -131,6 +132,11 @@ fn trace(case: &Value) -> Option<Found> {
             let (hit, count) = (quadric.intersect(&ray), Some(quadric.hits(&ray).len()));
             Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
         }
+        "patch" => {
+            let patch = Patch([0, 1, 2, 3].map(|i| vector(&shape["corners"][i])));
+            let (hit, count) = (patch.intersect(&ray), Some(patch.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
+        }
         other => panic!("{other} is no primitive of this schema"),
     }
 }
@@ -165,7 +171,7 @@ fn check(case: &Value, found: &Found) {
         // These compute the normal in f64, from the exact t.
         let primitive = case["primitive"].as_str().unwrap();
         let allowed = match primitive {
-            "capsule" | "cone" | "instance" | "heightfield" | "quadric" => 1e-9,
+            "capsule" | "cone" | "instance" | "heightfield" | "patch" | "quadric" => 1e-9,
             _ => 0.0,
         };
         assert!((exact.normal - normal).length() <= allowed, "{id}: normal {}", exact.normal);

@@ -140,6 +140,17 @@ pub fn shape(primitive: &str, value: Value) -> Result<Shape> {
             ensure!(coefficients[..9] != [0.0; 9], "x, y and z have no coefficient but 0");
             Shape::Quadric(coefficients)
         }
+        "patch" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                corners: [[f64; 3]; 4],
+            }
+            let [a, b, c, d] = typed::<Raw>(value)?.corners;
+            let corners = [vector(a)?, vector(b)?, vector(c)?, vector(d)?];
+            ensure!(corners.iter().any(|c| *c != corners[0]), "all corners are the same point");
+            Shape::Patch(corners)
+        }
         other => bail!("unknown primitive '{other}'"),
     })
 }

@@ -1,8 +1,9 @@
 //! The true answers of random rays, from the reference.
 
+use glam::Vec3;
 use reference::{ExactSurface, scene::Scene};
 use reference::{
-    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, plane, quadric, scene,
+    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, patch, plane, quadric, scene,
     sphere, transform,
 };
 
@@ -76,6 +77,7 @@ impl<'a> Truth<'a> {
             Shape::Sum(sum) => Some(mean(sum)),
             Shape::Cone(cone) => first(exact_cone(cone).hits(&exact)),
             Shape::Quadric(numbers) => first(quadric::Quadric(numbers.map(f64::from)).hits(&exact)),
+            Shape::Patch(corners) => first(patch::Patch(corners.map(Vec3::as_dvec3)).hits(&exact)),
         };
         let hit = if t.is_some() { ExpectedHit::Yes } else { ExpectedHit::No };
         Expected { hit, t, normal: None, faces: Vec::new(), surface: None, count }
