@@ -77,6 +77,16 @@ PatchHits patch_textbook(Patch q, vec3 o, vec3 d, float tmin, float tmax) {
     return hits;
 }
 
+// The index of the largest component, and a vector turned so that this component is the last.
+int patch_axis(vec3 d) {
+    vec3 size = abs(d);
+    return size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+}
+
+vec3 patch_turned(vec3 v, int axis) {
+    return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v;
+}
+
 // The area between two points and the ray, seen along the ray.
 float patch_area(vec2 p, vec2 q) {
     precise float area = p.x * q.y - p.y * q.x;
@@ -106,24 +116,25 @@ PatchHits patch_stable(Patch q, vec3 o, vec3 d, float tmin, float tmax) {
     precise vec3 middle = 0.25 * (q.q00 + q.q10 + q.q01 + q.q11);
     precise float start = dot(middle - o, d) / dot(d, d);
     precise vec3 there = o + start * d;
-    precise vec3 p[4] = vec3[4](q.q00 - there, q.q10 - there, q.q01 - there, q.q11 - there);
-    // Flat: across the largest component of the direction.
-    vec3 size = abs(d);
-    int k = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-    int i = (k + 1) % 3;
-    int j = (k + 2) % 3;
-    vec2 flat_p[4];
+    int axis = patch_axis(d);
+    vec3 ahead = patch_turned(d, axis);
+    vec3 corner[4] = vec3[4](q.q00, q.q10, q.q01, q.q11);
+    vec2 seen[4];
+    float along[4];
     for (int n = 0; n < 4; n++) {
-        precise vec2 seen = vec2(p[n][i], p[n][j]) * d[k] - p[n][k] * vec2(d[i], d[j]);
-        flat_p[n] = seen;
+        precise vec3 p = patch_turned(corner[n] - there, axis);
+        precise vec2 across = p.xy * ahead.z - p.z * ahead.xy;
+        precise float distance_along = dot(p, ahead) / dot(d, d);
+        seen[n] = across;
+        along[n] = distance_along;
     }
     // For x = u / (1 - u): u2·x² + u1·x + u0 = 0. For y = (1 - v) / v: v0·y² + v1·y + v2 = 0.
-    float u0 = patch_area(flat_p[0], flat_p[2]);
-    float u2 = patch_area(flat_p[1], flat_p[3]);
-    float v0 = patch_area(flat_p[0], flat_p[1]);
-    float v2 = patch_area(flat_p[2], flat_p[3]);
-    float one = patch_area(flat_p[0], flat_p[3]);
-    float other = patch_area(flat_p[1], flat_p[2]);
+    float u0 = patch_area(seen[0], seen[2]);
+    float u2 = patch_area(seen[1], seen[3]);
+    float v0 = patch_area(seen[0], seen[1]);
+    float v2 = patch_area(seen[2], seen[3]);
+    float one = patch_area(seen[0], seen[3]);
+    float other = patch_area(seen[1], seen[2]);
     precise float u1 = one + other;
     precise float v1 = one - other;
     // Both polynomials have the same discriminant (Plücker): the one with the smaller terms loses less.
@@ -142,8 +153,8 @@ PatchHits patch_stable(Patch q, vec3 o, vec3 d, float tmin, float tmax) {
         }
         x = abs(x) / (abs(x.x) + abs(x.y));
         y = abs(y) / (abs(y.x) + abs(y.y));
-        precise vec3 hit = x.y * (y.x * p[0] + y.y * p[2]) + x.x * (y.x * p[1] + y.y * p[3]);
-        precise float t = start + dot(hit, d) / dot(d, d);
+        precise float t = x.y * (y.x * along[0] + y.y * along[2]) + x.x * (y.x * along[1] + y.y * along[3]);
+        t += start;
         patch_meet(hits, t, vec2(x.x, y.y), tmin, tmax);
     }
     return hits;

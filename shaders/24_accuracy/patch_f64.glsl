@@ -28,15 +28,18 @@ void patch_float64(Patch q, vec3 o, vec3 direction, float tmin, float tmax, out 
     precise vec3 middle = 0.25 * (q.q00 + q.q10 + q.q01 + q.q11) - o;
     precise float foot = dot(middle, direction) / dot(direction, direction);
     precise dvec3 there = dvec3(o) + double(foot) * d;
-    precise dvec3 p[4] = dvec3[4](dvec3(q.q00) - there, dvec3(q.q10) - there, dvec3(q.q01) - there, dvec3(q.q11) - there);
-    vec3 size = abs(direction);
-    int k = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-    int i = (k + 1) % 3;
-    int j = (k + 2) % 3;
+    int axis = patch_axis(direction);
+    dvec3 ahead = dvec3(patch_turned(direction, axis));
+    vec3 corner[4] = vec3[4](q.q00, q.q10, q.q01, q.q11);
     dvec2 seen[4];
+    double along[4];
     for (int n = 0; n < 4; n++) {
-        precise dvec2 flat_p = dvec2(p[n][i], p[n][j]) * d[k] - p[n][k] * dvec2(d[i], d[j]);
-        seen[n] = flat_p;
+        precise dvec3 p = dvec3(corner[n]) - there;
+        p = axis == 0 ? p.yzx : axis == 1 ? p.zxy : p;
+        precise dvec2 across = p.xy * ahead.z - p.z * ahead.xy;
+        precise double distance_along = dot(p, ahead);
+        seen[n] = across;
+        along[n] = distance_along;
     }
     double u0 = patch_area(seen[0], seen[2]);
     double u2 = patch_area(seen[1], seen[3]);
@@ -70,8 +73,8 @@ void patch_float64(Patch q, vec3 o, vec3 direction, float tmin, float tmax, out 
         }
         u = abs(u) / (abs(u.x) + abs(u.y));
         v = abs(v) / (abs(v.x) + abs(v.y));
-        precise dvec3 hit = u.y * (v.y * p[0] + v.x * p[2]) + u.x * (v.y * p[1] + v.x * p[3]);
-        precise double t = double(foot) + dot(hit, d) / dot(d, d);
+        precise double rest = u.y * (v.y * along[0] + v.x * along[2]) + u.x * (v.y * along[1] + v.x * along[3]);
+        precise double t = double(foot) + rest / dot(d, d);
         if (t > double(tmin) && t <= double(tmax)) {
             if (hits.count == 0 || t < first) {
                 first = t;

@@ -31,10 +31,7 @@ Fraction patch_shares(Fraction x) {
 }
 
 vec2 patch_mix(Fraction share, vec2 at_0, vec2 at_1) {
-    vec3 sum = vec3(0.0);
-    sum_add_product(sum, share.under, at_0);
-    sum_add_product(sum, share.over, at_1);
-    return sum_total(sum);
+    return ff_add(ff_mul(share.under, at_0), ff_mul(share.over, at_1));
 }
 
 TwoFloat3 patch_mix(Fraction share, TwoFloat3 at_0, TwoFloat3 at_1) {
@@ -49,12 +46,27 @@ vec2 patch_discriminant(vec2 first, vec2 middle, vec2 last) {
     return sum_total(sum);
 }
 
-// How far a corner is from a point of the ray, o + start·d.
-vec2 patch_from(float corner, float o, float start, float d) {
-    vec3 sum = vec3(corner, 0.0, 0.0);
-    sum_add(sum, -o);
-    sum_add_product(sum, -start, d);
+// A point of the ray, o + start·d.
+vec2 patch_at(float o, float start, float d) {
+    vec3 sum = vec3(o, 0.0, 0.0);
+    sum_add_product(sum, start, d);
     return sum_total(sum);
+}
+
+vec2 patch_from(float corner, vec2 there) {
+    vec3 sum = vec3(corner, 0.0, 0.0);
+    sum_add(sum, -there);
+    return sum_total(sum);
+}
+
+// Products that need not cancel to the last digit.
+TwoFloat3 patch_cross(TwoFloat3 a, TwoFloat3 b) {
+    return TwoFloat3(ff_sub(ff_mul(a.y, b.z), ff_mul(a.z, b.y)), ff_sub(ff_mul(a.z, b.x), ff_mul(a.x, b.z)),
+        ff_sub(ff_mul(a.x, b.y), ff_mul(a.y, b.x)));
+}
+
+vec2 patch_dot(TwoFloat3 a, TwoFloat3 b) {
+    return ff_add(ff_add(ff_mul(a.x, b.x), ff_mul(a.y, b.y)), ff_mul(a.z, b.z));
 }
 
 // ANCHOR: patch
@@ -72,20 +84,22 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
     precise float foot = dot(middle, d) / dot(d, d);
     precise float start = floor(foot + 0.5);
 
-    vec3 largest = abs(d);
-    int k = largest.x > largest.y && largest.x > largest.z ? 0 : largest.y > largest.z ? 1 : 2;
-    int i = (k + 1) % 3;
-    int j = (k + 2) % 3;
-    vec3 corner[4] = vec3[4](q.q00, q.q10, q.q01, q.q11);
+    int axis = patch_axis(d);
+    vec3 ahead = patch_turned(d, axis);
+    o = patch_turned(o, axis);
+    TwoFloat3 there =
+        TwoFloat3(patch_at(o.x, start, ahead.x), patch_at(o.y, start, ahead.y), patch_at(o.z, start, ahead.z));
+    vec3 corners[4] = vec3[4](q.q00, q.q10, q.q01, q.q11);
     vec2 x[4];
     vec2 y[4];
     vec2 height[4];
     for (int n = 0; n < 4; n++) {
-        TwoFloat3 p = TwoFloat3(patch_from(corner[n][i], o[i], start, d[i]),
-            patch_from(corner[n][j], o[j], start, d[j]), patch_from(corner[n][k], o[k], start, d[k]));
-        x[n] = ff_determinant(p.x, p.z, d[i], d[k]);
-        y[n] = ff_determinant(p.y, p.z, d[j], d[k]);
-        height[n] = ff_dot(p, vec3(d[i], d[j], d[k]));
+        vec3 corner = patch_turned(corners[n], axis);
+        TwoFloat3 p =
+            TwoFloat3(patch_from(corner.x, there.x), patch_from(corner.y, there.y), patch_from(corner.z, there.z));
+        x[n] = ff_determinant(p.x, p.z, ahead.x, ahead.z);
+        y[n] = ff_determinant(p.y, p.z, ahead.y, ahead.z);
+        height[n] = patch_dot(p, ff_vector(ahead));
     }
     // Areas u0, u2, v0, v2 and both diagonals', as in patch_stable().
     ivec2 pairs[6] = ivec2[6](ivec2(0, 2), ivec2(1, 3), ivec2(0, 1), ivec2(2, 3), ivec2(0, 3), ivec2(1, 2));
@@ -108,12 +122,13 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
     bool has_v = area[2].x != 0.0 || v1.x != 0.0 || area[3].x != 0.0;
     bool is_of_u =
         max(u1.x * u1.x, abs(area[0].x * area[1].x)) < max(v1.x * v1.x, abs(area[2].x * area[3].x));
-    vec2 discriminant = is_of_u ? patch_discriminant(area[0], u1, area[1]) : patch_discriminant(area[2], v1, area[3]);
+    vec2 discriminant =
+        patch_discriminant(is_of_u ? area[0] : area[2], is_of_u ? u1 : v1, is_of_u ? area[1] : area[3]);
     if (discriminant.x < 0.0) {
         return;
     }
     vec2 root = ff_sqrt(discriminant);
-    vec2 along = ff_dot(ff_vector(d), d);
+    vec2 along = patch_dot(ff_vector(d), ff_vector(d));
     Fraction first_u;
     Fraction first_v;
     vec2 first = vec2(0.0);
@@ -154,11 +169,11 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
     TwoFloat3 low_v = ff_difference(q.q01, q.q00);
     if (hits.count == 2) {
         // A flat patch that is folded has two pairs of u and v at one point.
-        vec2 volume = ff_dot(ff_cross(low_u, low_v), ff_difference(q.q11, q.q00));
+        vec2 volume = patch_dot(patch_cross(low_u, low_v), ff_difference(q.q11, q.q00));
         hits.count = volume.x == 0.0 ? 1 : 2;
     }
     TwoFloat3 along_u = patch_mix(first_v, low_u, ff_difference(q.q11, q.q01));
     TwoFloat3 along_v = patch_mix(first_u, low_v, ff_difference(q.q11, q.q10));
-    normal = ff_normalize(ff_cross(along_u, along_v));
+    normal = ff_normalize(patch_cross(along_u, along_v));
 }
 // ANCHOR_END: patch

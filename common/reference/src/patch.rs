@@ -146,9 +146,7 @@ fn roots(d: &Vector, [a, b, c, e]: [&Vector; 4]) -> Option<Vec<Number>> {
     if discriminant < RBig::ZERO {
         return Some(Vec::new());
     }
-    let root = |sign: i32| {
-        Number::new(-&half / &square, RBig::from(sign) / &square, &discriminant)
-    };
+    let root = |sign: i32| Number::new(-&half / &square, RBig::from(sign) / &square, &discriminant);
     Some(if discriminant.is_zero() { vec![root(1)] } else { vec![root(-1), root(1)] })
 }
 

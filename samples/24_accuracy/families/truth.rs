@@ -3,8 +3,8 @@
 use glam::Vec3;
 use reference::{ExactSurface, scene::Scene};
 use reference::{
-    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, patch, plane, quadric, scene,
-    sphere, transform,
+    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, patch, plane, quadric,
+    scene, sphere, transform,
 };
 
 use crate::judge::{Expected, ExpectedHit};
