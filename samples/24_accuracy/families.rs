@@ -3,6 +3,7 @@
 mod curved;
 mod departures;
 mod flat;
+mod grid;
 mod ruled;
 mod smooth;
 mod truth;
@@ -65,6 +66,7 @@ impl Family {
             Primitive::Cone => curved::cones(draw),
             Primitive::Quadric => curved::quadrics(draw),
             Primitive::Patch => ruled::patches(draw),
+            Primitive::Voxel => grid::voxels(draw),
         }
     }
 

@@ -18,10 +18,11 @@ pub enum Primitive {
     Cone,
     Quadric,
     Patch,
+    Voxel,
 }
 
 impl Primitive {
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Sphere,
         Self::Box,
         Self::Plane,
@@ -34,6 +35,7 @@ impl Primitive {
         Self::Cone,
         Self::Quadric,
         Self::Patch,
+        Self::Voxel,
     ];
 
     pub fn name(self) -> &'static str {
@@ -50,6 +52,7 @@ impl Primitive {
             Self::Cone => "cone",
             Self::Quadric => "quadric",
             Self::Patch => "patch",
+            Self::Voxel => "voxel",
         }
     }
 
@@ -72,6 +75,7 @@ impl Primitive {
             Self::Cone => &CONE,
             Self::Quadric => &QUADRIC,
             Self::Patch => &PATCH,
+            Self::Voxel => &VOXEL,
         }
     }
 }
@@ -238,4 +242,12 @@ static PATCH: [Rung; 4] = [
     rung("L1", "stable", 1),
     top(exact("L2", "two-float", 2)),
     float64("L3", 3),
+];
+
+static VOXEL: [Rung; 5] = [
+    rung("V0", "march", 0),
+    rung("V1", "Cardano", 1),
+    rung("V2", "bracketed", 2),
+    top(exact("V3", "two-float", 3)),
+    float64("V4", 4),
 ];

@@ -42,6 +42,15 @@ pub enum Shape {
     Quadric([f32; 10]),
     /// Corners of a bilinear patch at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1).
     Patch([Vec3; 4]),
+    Voxel(Voxel),
+}
+
+/// A box with a distance at each corner, x changing fastest; the surface is where their trilinear mean is 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Voxel {
+    pub low: Vec3,
+    pub high: Vec3,
+    pub corners: [f32; 8],
 }
 
 /// A cone between two discs: a cylinder if their radii agree.
@@ -121,6 +130,7 @@ impl Shape {
             Self::Cone(_) => Primitive::Cone,
             Self::Quadric(_) => Primitive::Quadric,
             Self::Patch(_) => Primitive::Patch,
+            Self::Voxel(_) => Primitive::Voxel,
         }
     }
 
@@ -201,6 +211,11 @@ impl Shape {
             }
             Self::Quadric(coefficients) => add(coefficients),
             Self::Patch(corners) => corners.iter().for_each(|corner| add(&corner.to_array())),
+            Self::Voxel(Voxel { low, high, corners }) => {
+                add(&low.to_array());
+                add(&high.to_array());
+                add(corners);
+            }
         }
         numbers
     }
@@ -213,7 +228,9 @@ impl Shape {
                 let (center, radius) = (center.as_dvec3(), DVec3::splat((*radius).into()));
                 (center - radius, center + radius)
             }
-            Self::Box { low, high } => (low.as_dvec3(), high.as_dvec3()),
+            Self::Box { low, high } | Self::Voxel(Voxel { low, high, .. }) => {
+                (low.as_dvec3(), high.as_dvec3())
+            }
             Self::Plane { .. } | Self::PointPlane { .. } | Self::Sum(_) | Self::Quadric(_) => {
                 (-far, far)
             }

@@ -4,10 +4,10 @@ use common::scene::Camera;
 use glam::{DVec3, Vec3};
 
 use crate::ladder::Primitive;
-use crate::shape::{Cone, Heightfield, Leaving, Shape};
+use crate::shape::{Cone, Heightfield, Leaving, Shape, Voxel};
 
 /// Primitives that can be looked at; a sum cannot.
-pub const PRIMITIVES: [Primitive; 11] = [
+pub const PRIMITIVES: [Primitive; 12] = [
     Primitive::Sphere,
     Primitive::Box,
     Primitive::Plane,
@@ -19,6 +19,7 @@ pub const PRIMITIVES: [Primitive; 11] = [
     Primitive::Cone,
     Primitive::Quadric,
     Primitive::Patch,
+    Primitive::Voxel,
 ];
 
 /// Towards the sun.
@@ -84,6 +85,12 @@ impl Specimen {
                 Vec3::new(-0.5, 0.625, -0.875),
                 Vec3::new(0.5, 0.5, 0.75),
             ]),
+            // Two sheets, and a tunnel from one to the other.
+            Primitive::Voxel => Shape::Voxel(Voxel {
+                low: Vec3::splat(-0.7),
+                high: Vec3::splat(0.7),
+                corners: [0.6, -0.1, -0.2, 0.05, 0.1, -0.15, -0.3, 0.7],
+            }),
             Primitive::SecondaryOrigin => Shape::Leaving(Leaving {
                 center: Vec3::ZERO,
                 radius: 1.0,

@@ -37,6 +37,9 @@
 #elif PRIMITIVE == PRIMITIVE_PATCH
 #include "ask_patch.glsl"
 #define ASK ask_patch
+#elif PRIMITIVE == PRIMITIVE_VOXEL
+#include "ask_voxel.glsl"
+#define ASK ask_voxel
 #endif
 
 #ifdef FLOAT64
@@ -61,6 +64,9 @@
 #elif PRIMITIVE == PRIMITIVE_PATCH
 #include "ask_patch_f64.glsl"
 #define ASK_FLOAT64 ask_patch_f64
+#elif PRIMITIVE == PRIMITIVE_VOXEL
+#include "ask_voxel_f64.glsl"
+#define ASK_FLOAT64 ask_voxel_f64
 #endif
 #endif
 

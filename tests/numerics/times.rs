@@ -49,11 +49,11 @@ fn cones_and_quadrics_are_timed() {
     give_times("24_accuracy/root_times", &["--only", "cone", "--only", "quadric"]);
 }
 
-/// So have patches.
+/// So have patches and voxels.
 #[test]
 #[ignore = "by hand: takes times, for minutes"]
-fn patches_are_timed() {
-    give_times("24_accuracy/patch_times", &["--only", "patch"]);
+fn patches_and_voxels_are_timed() {
+    give_times("24_accuracy/patch_times", &["--only", "patch", "--only", "voxel"]);
 }
 
 fn give_times(name: &str, only: &[&str]) {

@@ -17,6 +17,7 @@ use super::surd::Surd;
 use super::surface::Surface;
 use super::triangle;
 use super::ulp::ulp_error;
+use super::voxel::Voxel;
 
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hard_cases.json");
 
@@ -135,6 +136,12 @@ fn trace(case: &Value) -> Option<Found> {
         "patch" => {
             let patch = Patch([0, 1, 2, 3].map(|i| vector(&shape["corners"][i])));
             let (hit, count) = (patch.intersect(&ray), Some(patch.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
+        }
+        "voxel" => {
+            let corners = std::array::from_fn(|i| number(&shape["corners"][i]));
+            let voxel = Voxel { low: vector(&shape["lo"]), high: vector(&shape["hi"]), corners };
+            let (hit, count) = (voxel.intersect(&ray), Some(voxel.hits(&ray).len()));
             Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
         }
         other => panic!("{other} is no primitive of this schema"),

@@ -9,6 +9,7 @@
 //! | [`capsule`], [`swept`], [`instance`] | the same for a capsule, a swept sphere, and a sphere under any matrix |
 //! | [`cone`], [`quadric`], [`patch`] | a cone between two discs, which may be a cylinder, a surface of degree two, and a bilinear patch, exactly |
 //! | [`torus`], [`polynomial`] | the same for a torus, by Sturm's theorem for polynomials with whole coefficients |
+//! | [`voxel`] | the same for the trilinear surface in a voxel |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
@@ -60,6 +61,7 @@ pub mod triangle;
 pub mod ulp;
 pub mod vector;
 pub mod verdict;
+pub mod voxel;
 
 #[cfg(test)]
 mod hard_cases;
