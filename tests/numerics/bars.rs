@@ -93,8 +93,10 @@ const EDGES: (&str, f64) = ("box from 1e4", 2.0);
 const GRAZING: f64 = 1.0;
 
 /// The rungs that are right to one ULP in every family.
-const TOPS: [&str; 17] =
-    ["S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", "I2", "K2", "K3", "Q2", "L2", "L3", "V3", "V4"];
+const TOPS: [&str; 17] = [
+    "S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", "I2", "K2", "K3", "Q2", "L2", "L3", "V3",
+    "V4",
+];
 
 #[test]
 fn every_rung_keeps_its_promise_on_two_thousand_rays_a_family() {
