@@ -1,5 +1,5 @@
 // The question of the laboratory, for the one primitive that PRIMITIVE names: the host defines it, so
-// that no shader is compiled with nine. RUNG is a specialization constant. After query.glsl.
+// that no shader is compiled with all of them. RUNG is a specialization constant. After query.glsl.
 
 #if PRIMITIVE == PRIMITIVE_SPHERE
 #include "ask_sphere.glsl"

@@ -110,8 +110,8 @@ bool patch_is_within(vec2 x) {
 }
 
 // ANCHOR: stable
-// Origin of the coordinates is a point of the ray near the patch, and the patch is seen along the ray, as flat. Six areas
-// between its corners decide which hits there are; they have no rounding of a far origin in them.
+// The origin moves along the ray to the patch, which is then seen along the ray, as flat. Six areas between its corners decide
+// which hits there are; the rounding of a far origin is not in them.
 PatchHits patch_stable(Patch q, vec3 o, vec3 d, float tmin, float tmax) {
     precise vec3 middle = 0.25 * (q.q00 + q.q10 + q.q01 + q.q11);
     precise float start = dot(middle - o, d) / dot(d, d);

@@ -4,7 +4,7 @@
 
 const uint PATCH_TWO_FLOAT = 2;
 
-// patch_root() in two-floats: two.x / two.y.
+// A fraction of two-floats, over / under, as patch_root() returns.
 struct Fraction {
     vec2 over;
     vec2 under;
