@@ -211,7 +211,10 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
         Primitive::SecondaryOrigin => mean.is_some(),
         _ => mean.is_some() || raw.secondary_hit.is_some() || secondary_t.is_some(),
     };
-    let counts = matches!(primitive, Primitive::Cone | Primitive::Quadric);
+    let counts = matches!(
+        primitive,
+        Primitive::Cone | Primitive::Quadric | Primitive::Patch | Primitive::Voxel
+    );
     ensure!(
         !foreign && (counts || raw.count.is_none()),
         "a {} expects none of these",

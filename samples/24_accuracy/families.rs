@@ -3,6 +3,8 @@
 mod curved;
 mod departures;
 mod flat;
+mod grid;
+mod ruled;
 mod smooth;
 mod truth;
 
@@ -63,6 +65,8 @@ impl Family {
             Primitive::Accumulation => sums(),
             Primitive::Cone => curved::cones(draw),
             Primitive::Quadric => curved::quadrics(draw),
+            Primitive::Patch => ruled::patches(draw),
+            Primitive::Voxel => grid::voxels(draw),
         }
     }
 

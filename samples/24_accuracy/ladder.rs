@@ -17,10 +17,12 @@ pub enum Primitive {
     Accumulation,
     Cone,
     Quadric,
+    Patch,
+    Voxel,
 }
 
 impl Primitive {
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Sphere,
         Self::Box,
         Self::Plane,
@@ -32,6 +34,8 @@ impl Primitive {
         Self::Accumulation,
         Self::Cone,
         Self::Quadric,
+        Self::Patch,
+        Self::Voxel,
     ];
 
     pub fn name(self) -> &'static str {
@@ -47,6 +51,8 @@ impl Primitive {
             Self::Accumulation => "accumulation",
             Self::Cone => "cone",
             Self::Quadric => "quadric",
+            Self::Patch => "patch",
+            Self::Voxel => "voxel",
         }
     }
 
@@ -68,6 +74,8 @@ impl Primitive {
             Self::Accumulation => &ACCUMULATION,
             Self::Cone => &CONE,
             Self::Quadric => &QUADRIC,
+            Self::Patch => &PATCH,
+            Self::Voxel => &VOXEL,
         }
     }
 }
@@ -227,4 +235,19 @@ static QUADRIC: [Rung; 4] = [
     top(exact("Q2", "two-float", 2)),
     // Along an asymptote the coefficient of t² needs more than 53 bits.
     Rung { is_top: false, ..float64("Q3", 3) },
+];
+
+static PATCH: [Rung; 4] = [
+    rung("L0", "textbook", 0),
+    rung("L1", "stable", 1),
+    top(exact("L2", "two-float", 2)),
+    float64("L3", 3),
+];
+
+static VOXEL: [Rung; 5] = [
+    rung("V0", "march", 0),
+    rung("V1", "Cardano", 1),
+    rung("V2", "bracketed", 2),
+    top(exact("V3", "two-float", 3)),
+    float64("V4", 4),
 ];

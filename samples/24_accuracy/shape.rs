@@ -40,6 +40,17 @@ pub enum Shape {
     Cone(Cone),
     /// Coefficients of x², y², z², yz, xz, xy, x, y, z and 1.
     Quadric([f32; 10]),
+    /// Corners of a bilinear patch at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1).
+    Patch([Vec3; 4]),
+    Voxel(Voxel),
+}
+
+/// A box with a distance at each corner, x changing fastest; the surface is where their trilinear mean is 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Voxel {
+    pub low: Vec3,
+    pub high: Vec3,
+    pub corners: [f32; 8],
 }
 
 /// A cone between two discs: a cylinder if their radii agree.
@@ -118,6 +129,8 @@ impl Shape {
             Self::Sum(_) => Primitive::Accumulation,
             Self::Cone(_) => Primitive::Cone,
             Self::Quadric(_) => Primitive::Quadric,
+            Self::Patch(_) => Primitive::Patch,
+            Self::Voxel(_) => Primitive::Voxel,
         }
     }
 
@@ -197,6 +210,12 @@ impl Shape {
                 add(&[if *is_closed { 1.0 } else { 0.0 }]);
             }
             Self::Quadric(coefficients) => add(coefficients),
+            Self::Patch(corners) => corners.iter().for_each(|corner| add(&corner.to_array())),
+            Self::Voxel(Voxel { low, high, corners }) => {
+                add(&low.to_array());
+                add(&high.to_array());
+                add(corners);
+            }
         }
         numbers
     }
@@ -209,7 +228,9 @@ impl Shape {
                 let (center, radius) = (center.as_dvec3(), DVec3::splat((*radius).into()));
                 (center - radius, center + radius)
             }
-            Self::Box { low, high } => (low.as_dvec3(), high.as_dvec3()),
+            Self::Box { low, high } | Self::Voxel(Voxel { low, high, .. }) => {
+                (low.as_dvec3(), high.as_dvec3())
+            }
             Self::Plane { .. } | Self::PointPlane { .. } | Self::Sum(_) | Self::Quadric(_) => {
                 (-far, far)
             }
@@ -217,6 +238,11 @@ impl Shape {
                 let [a, b] = [(a, radii[0]), (b, radii[1])]
                     .map(|(middle, radius)| (middle.as_dvec3(), DVec3::splat(radius.into())));
                 ((a.0 - a.1).min(b.0 - b.1), (a.0 + a.1).max(b.0 + b.1))
+            }
+            Self::Patch(corners) => {
+                let [low, high] = [Vec3::min, Vec3::max].map(|f| corners.iter().copied().reduce(f));
+                let corner = |c: Option<Vec3>| c.unwrap_or_default().as_dvec3();
+                (corner(low), corner(high))
             }
             Self::Triangles(triangles) => {
                 let corners = triangles.as_flattened();

@@ -4,10 +4,10 @@ use common::scene::Camera;
 use glam::{DVec3, Vec3};
 
 use crate::ladder::Primitive;
-use crate::shape::{Cone, Heightfield, Leaving, Shape};
+use crate::shape::{Cone, Heightfield, Leaving, Shape, Voxel};
 
 /// Primitives that can be looked at; a sum cannot.
-pub const PRIMITIVES: [Primitive; 10] = [
+pub const PRIMITIVES: [Primitive; 12] = [
     Primitive::Sphere,
     Primitive::Box,
     Primitive::Plane,
@@ -18,6 +18,8 @@ pub const PRIMITIVES: [Primitive; 10] = [
     Primitive::SecondaryOrigin,
     Primitive::Cone,
     Primitive::Quadric,
+    Primitive::Patch,
+    Primitive::Voxel,
 ];
 
 /// Towards the sun.
@@ -76,6 +78,19 @@ impl Specimen {
             Primitive::Quadric => {
                 Shape::Quadric([4.0, -1.0, 4.0, 0.0, 0.0, 1.0, 0.0, 0.25, 0.0, -1.0])
             }
+            // So steep that a part of it is hidden behind its own fold.
+            Primitive::Patch => Shape::Patch([
+                Vec3::new(-0.625, -0.5, 0.75),
+                Vec3::new(0.75, -0.625, -0.75),
+                Vec3::new(-0.5, 0.625, -0.875),
+                Vec3::new(0.5, 0.5, 0.75),
+            ]),
+            // Two sheets, and a tunnel from one to the other.
+            Primitive::Voxel => Shape::Voxel(Voxel {
+                low: Vec3::splat(-0.7),
+                high: Vec3::splat(0.7),
+                corners: [0.6, -0.1, -0.2, 0.05, 0.1, -0.15, -0.3, 0.7],
+            }),
             Primitive::SecondaryOrigin => Shape::Leaving(Leaving {
                 center: Vec3::ZERO,
                 radius: 1.0,

@@ -1,5 +1,5 @@
 // The question of the laboratory, for the one primitive that PRIMITIVE names: the host defines it, so
-// that no shader is compiled with nine. RUNG is a specialization constant. After query.glsl.
+// that no shader is compiled with all of them. RUNG is a specialization constant. After query.glsl.
 
 #if PRIMITIVE == PRIMITIVE_SPHERE
 #include "ask_sphere.glsl"
@@ -34,6 +34,12 @@
 #elif PRIMITIVE == PRIMITIVE_QUADRIC
 #include "ask_quadric.glsl"
 #define ASK ask_quadric
+#elif PRIMITIVE == PRIMITIVE_PATCH
+#include "ask_patch.glsl"
+#define ASK ask_patch
+#elif PRIMITIVE == PRIMITIVE_VOXEL
+#include "ask_voxel.glsl"
+#define ASK ask_voxel
 #endif
 
 #ifdef FLOAT64
@@ -55,6 +61,12 @@
 #elif PRIMITIVE == PRIMITIVE_QUADRIC
 #include "ask_quadric_f64.glsl"
 #define ASK_FLOAT64 ask_quadric_f64
+#elif PRIMITIVE == PRIMITIVE_PATCH
+#include "ask_patch_f64.glsl"
+#define ASK_FLOAT64 ask_patch_f64
+#elif PRIMITIVE == PRIMITIVE_VOXEL
+#include "ask_voxel_f64.glsl"
+#define ASK_FLOAT64 ask_voxel_f64
 #endif
 #endif
 

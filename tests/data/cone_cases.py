@@ -253,4 +253,5 @@ def main():
     FILE.write_text(json.dumps(file, indent=1, ensure_ascii=False))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -46,13 +46,24 @@ fn every_rung_is_timed() {
 #[test]
 #[ignore = "by hand: takes times, for minutes"]
 fn cones_and_quadrics_are_timed() {
+    give_times("24_accuracy/root_times", &["--only", "cone", "--only", "quadric"]);
+}
+
+/// So have patches and voxels.
+#[test]
+#[ignore = "by hand: takes times, for minutes"]
+fn patches_and_voxels_are_timed() {
+    give_times("24_accuracy/patch_times", &["--only", "patch", "--only", "voxel"]);
+}
+
+fn give_times(name: &str, only: &[&str]) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");
-    let output = unwatched(&["--measure", place, "--only", "cone", "--only", "quadric"]);
+    let output = unwatched(&[&["--measure", place], only].concat());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let report = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("it is there");
     let report: Value = serde_json::from_str(&report).expect("JSON");
-    expected::give_timed("24_accuracy/root_times", times(&report).into());
+    expected::give_timed(name, times(&report).into());
 }
 
 fn times(report: &Value) -> Table {

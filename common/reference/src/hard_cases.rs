@@ -8,6 +8,7 @@ use super::capsule::Capsule;
 use super::cone::Cone;
 use super::heightfield::Heightfield;
 use super::instance::Ellipsoid;
+use super::patch::Patch;
 use super::plane::{Plane, PointPlane};
 use super::quadric::Quadric;
 use super::ray::Ray;
@@ -16,6 +17,7 @@ use super::surd::Surd;
 use super::surface::Surface;
 use super::triangle;
 use super::ulp::ulp_error;
+use super::voxel::Voxel;
 
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hard_cases.json");
 
@@ -131,6 +133,17 @@ fn trace(case: &Value) -> Option<Found> {
             let (hit, count) = (quadric.intersect(&ray), Some(quadric.hits(&ray).len()));
             Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
         }
+        "patch" => {
+            let patch = Patch([0, 1, 2, 3].map(|i| vector(&shape["corners"][i])));
+            let (hit, count) = (patch.intersect(&ray), Some(patch.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
+        }
+        "voxel" => {
+            let corners = std::array::from_fn(|i| number(&shape["corners"][i]));
+            let voxel = Voxel { low: vector(&shape["lo"]), high: vector(&shape["hi"]), corners };
+            let (hit, count) = (voxel.intersect(&ray), Some(voxel.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
+        }
         other => panic!("{other} is no primitive of this schema"),
     }
 }
@@ -165,7 +178,7 @@ fn check(case: &Value, found: &Found) {
         // These compute the normal in f64, from the exact t.
         let primitive = case["primitive"].as_str().unwrap();
         let allowed = match primitive {
-            "capsule" | "cone" | "instance" | "heightfield" | "quadric" => 1e-9,
+            "capsule" | "cone" | "instance" | "heightfield" | "patch" | "quadric" => 1e-9,
             _ => 0.0,
         };
         assert!((exact.normal - normal).length() <= allowed, "{id}: normal {}", exact.normal);

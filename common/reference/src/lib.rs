@@ -7,8 +7,9 @@
 //! | [`surd`] | `p + q·√r`: the root of a quadratic, a unit normal, compared and rounded exactly |
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
 //! | [`capsule`], [`swept`], [`instance`] | the same for a capsule, a swept sphere, and a sphere under any matrix |
-//! | [`cone`], [`quadric`] | a cone between two discs, which may be a cylinder, and a surface of degree two, exactly |
+//! | [`cone`], [`quadric`], [`patch`] | a cone between two discs, which may be a cylinder, a surface of degree two, and a bilinear patch, exactly |
 //! | [`torus`], [`polynomial`] | the same for a torus, by Sturm's theorem for polynomials with whole coefficients |
+//! | [`voxel`] | the same for the trilinear surface in a voxel |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
@@ -41,6 +42,7 @@ pub mod heightfield;
 pub mod hit;
 pub mod instance;
 pub mod occlusion;
+pub mod patch;
 pub mod plane;
 pub mod polynomial;
 pub mod quadric;
@@ -59,6 +61,7 @@ pub mod triangle;
 pub mod ulp;
 pub mod vector;
 pub mod verdict;
+pub mod voxel;
 
 #[cfg(test)]
 mod hard_cases;

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::{number, vector};
-use crate::shape::{Cone, Gap, Heightfield, Leaving, Pattern, Shape, Sum};
+use crate::shape::{Cone, Gap, Heightfield, Leaving, Pattern, Shape, Sum, Voxel};
 
 /// Beyond the 2^24 at which a sum of floats stops growing; ten seconds on the software driver.
 const LONGEST_SUM: u32 = 1 << 26;
@@ -139,6 +139,35 @@ pub fn shape(primitive: &str, value: Value) -> Result<Shape> {
             }
             ensure!(coefficients[..9] != [0.0; 9], "x, y and z have no coefficient but 0");
             Shape::Quadric(coefficients)
+        }
+        "patch" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                corners: [[f64; 3]; 4],
+            }
+            let [a, b, c, d] = typed::<Raw>(value)?.corners;
+            let corners = [vector(a)?, vector(b)?, vector(c)?, vector(d)?];
+            ensure!(corners.iter().any(|c| *c != corners[0]), "all corners are the same point");
+            Shape::Patch(corners)
+        }
+        "voxel" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                lo: [f64; 3],
+                hi: [f64; 3],
+                corners: [f64; 8],
+            }
+            let raw: Raw = typed(value)?;
+            let (low, high) = (vector(raw.lo)?, vector(raw.hi)?);
+            ensure!(low.cmplt(high).all(), "lo {low} is not below hi {high}");
+            let mut corners = [0.0; 8];
+            for (to, from) in corners.iter_mut().zip(raw.corners) {
+                *to = number(from)?;
+            }
+            ensure!(corners != [0.0; 8], "all corners are 0");
+            Shape::Voxel(Voxel { low, high, corners })
         }
         other => bail!("unknown primitive '{other}'"),
     })

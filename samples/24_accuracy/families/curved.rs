@@ -9,7 +9,7 @@ use super::{Draw, Family, on_disc};
 use crate::shape::{Cone, Shape};
 
 /// Off by up to a millionth to either side, most often by far less.
-fn nearly(random: &mut Random) -> f64 {
+pub fn nearly(random: &mut Random) -> f64 {
     let side = if random.below(2) == 0 { 1.0 } else { -1.0 };
     side * random.scale(1e-9, 1e-6)
 }

@@ -1,11 +1,13 @@
 //! The true answers of random rays, from the reference.
 
+use glam::Vec3;
 use reference::{ExactSurface, scene::Scene};
 use reference::{
-    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, plane, quadric, scene,
-    sphere, transform,
+    aabb::Aabb, capsule::Capsule, cone, heightfield, instance::Ellipsoid, patch, plane, quadric,
+    scene, sphere, transform,
 };
 
+use super::grid;
 use crate::judge::{Expected, ExpectedHit};
 use crate::query::Ray;
 use crate::shape::{Cone, Heightfield, Leaving, Pattern, Shape, Sum, parts};
@@ -76,6 +78,8 @@ impl<'a> Truth<'a> {
             Shape::Sum(sum) => Some(mean(sum)),
             Shape::Cone(cone) => first(exact_cone(cone).hits(&exact)),
             Shape::Quadric(numbers) => first(quadric::Quadric(numbers.map(f64::from)).hits(&exact)),
+            Shape::Patch(corners) => first(patch::Patch(corners.map(Vec3::as_dvec3)).hits(&exact)),
+            Shape::Voxel(voxel) => first(grid::exact(voxel).hits(&exact)),
         };
         let hit = if t.is_some() { ExpectedHit::Yes } else { ExpectedHit::No };
         Expected { hit, t, normal: None, faces: Vec::new(), surface: None, count }
