@@ -7,7 +7,7 @@ use common::scene::plane::Plane;
 use common::scene::{DiskLight, Light, LightKind};
 use effects::{
     BoardPlane, Column, Composition, Emitter, EmitterAddresses, Face, Finish, Glass, Lens,
-    MAX_LIGHTS, Node, Segment, Solid, Sphere,
+    MAX_LIGHTS, Node, Segment, Solid, Sphere, Torus,
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -31,6 +31,8 @@ pub struct Shapes {
     pub nodes: vk::DeviceAddress,
     /// The address of an array of [`effects::Segment`].
     pub segments: vk::DeviceAddress,
+    /// The address of an array of [`effects::Torus`].
+    pub tori: vk::DeviceAddress,
     /// The address of an array of [`effects::Face`].
     pub faces: vk::DeviceAddress,
     /// The address of an array of [`effects::Finish`].
@@ -82,6 +84,7 @@ common::shader_struct! {
         pub faces: Address,
         pub nodes: Address,
         pub segments: Address,
+        pub tori: Address,
         pub finishes: Address,
         pub glasses: Address,
         pub normal_maps: Address,
@@ -113,7 +116,7 @@ common::shader_struct! {
 }
 
 /// Layouts of the structures behind the world's address.
-pub const LAYOUTS: [StructLayout; 26] = [
+pub const LAYOUTS: [StructLayout; 27] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -127,6 +130,7 @@ pub const LAYOUTS: [StructLayout; 26] = [
     Face::LAYOUT,
     Node::LAYOUT,
     Segment::LAYOUT,
+    Torus::LAYOUT,
     Finish::LAYOUT,
     Glass::LAYOUT,
     Lens::LAYOUT,
@@ -173,6 +177,7 @@ impl World {
             faces: shapes.faces.into(),
             nodes: shapes.nodes.into(),
             segments: shapes.segments.into(),
+            tori: shapes.tori.into(),
             finishes: shapes.finishes.into(),
             glasses: shapes.glasses.into(),
             normal_maps: shapes.normal_maps.into(),

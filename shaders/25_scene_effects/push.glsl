@@ -12,6 +12,7 @@
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
+#include "common/torus.glsl"
 #include "common/rough.glsl"
 #include "common/normal_map.glsl"
 #include "common/sky.glsl"
@@ -114,6 +115,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Faces faces;
     Nodes nodes;          // of all strands
     Segments segments;
+    Tori tori;
     Finishes finishes;
     Glasses glasses;
     NormalMaps normal_maps;

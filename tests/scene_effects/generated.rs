@@ -24,13 +24,13 @@ pub fn possible(mut set: Effects) -> Effects {
     if !set.has_any(&[PointShadows, DirectionalShadows]) {
         set = set.without(AreaLight);
     }
-    if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Plane, Solids]) {
+    if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Plane, Solids, Tori]) {
         set = set.without(Mirror);
     }
     if !set.has_any(&[Triangles, Spheres]) {
         set = set.without(Emitters);
     }
-    if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) {
+    if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids, Tori]) {
         set = set.without(Patterns).without(Glass).without(RoughMetal);
     }
     set
@@ -94,7 +94,7 @@ fn leaves_nothing(set: &Effects) -> bool {
         Emitters,
         Environment,
     ];
-    set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)
+    set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids, Tori]) && !set.has_any(&leaving)
 }
 
 /// A random half of sixteen, without the first.
@@ -368,6 +368,17 @@ fn text(set: Effects, random: &mut Random) -> String {
             text += &format!(
                 "[[solid]]\ncenter = [{x}, {}, {z}]\nplanes = [{planes}]\nmaterial = \"{material}\"\n",
                 0.5 + number as f64
+            );
+        }
+        let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
+        if has(Tori) {
+            text += &format!(
+                "[[torus]]\ncenter = [{x}, 0.7, {z}]\naxis = [{}, 1, {}]\nradius = {}\ntube = {}\n\
+                 material = \"{material}\"\n",
+                n(-2.0, 2.0),
+                n(-2.0, 2.0),
+                n(0.3, 0.6),
+                n(0.03, 0.3)
             );
         }
     }
