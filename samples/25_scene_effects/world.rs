@@ -84,7 +84,6 @@ common::shader_struct! {
         pub faces: Address,
         pub nodes: Address,
         pub segments: Address,
-        pub tori: Address,
         pub finishes: Address,
         pub glasses: Address,
         pub normal_maps: Address,
@@ -111,6 +110,7 @@ common::shader_struct! {
         pub rough_count: u32,
         pub map_count: u32,
         pub moving: u32,
+        pub tori: Address,
         pub filtered: u32,
     }
 }
@@ -177,7 +177,6 @@ impl World {
             faces: shapes.faces.into(),
             nodes: shapes.nodes.into(),
             segments: shapes.segments.into(),
-            tori: shapes.tori.into(),
             finishes: shapes.finishes.into(),
             glasses: shapes.glasses.into(),
             normal_maps: shapes.normal_maps.into(),
@@ -205,6 +204,7 @@ impl World {
             rough_count: shapes.rough_count,
             map_count: shapes.map_count,
             moving: scene.moving() as u32,
+            tori: shapes.tori.into(),
             filtered: scene.filtered.into(),
         }
     }

@@ -115,7 +115,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Faces faces;
     Nodes nodes;          // of all strands
     Segments segments;
-    Tori tori;
     Finishes finishes;
     Glasses glasses;
     NormalMaps normal_maps;
@@ -142,6 +141,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint rough_count;     // of materials, if one in use has microfacets; else 0
     uint map_count;       // of materials, if one in use has a normal map; else 0
     uint moving;          // whether anything moves while the shutter is open
+    Tori tori;
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
 
