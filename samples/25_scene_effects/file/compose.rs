@@ -35,8 +35,8 @@ const MOST_MESHES: usize = 1_000_000;
 
 /// The least radius of a torus's tube, in radii of its ring.
 ///
-/// Where a ray leaves a thinner one, the error of the polynomial, 8u·R²/r, is more than a tenth of the tube, and no
-/// start is safe (`shaders/common/torus.glsl`): r² is then below 80u·R².
+/// Where a ray leaves the surface, the error of the polynomial is 8u·R²/r (`shaders/common/torus.glsl`). Below 0.0022,
+/// r² = 80u·R², that is more than a tenth of the tube, and no start is safe.
 const THINNEST: f32 = 0.0025;
 
 impl Description {
@@ -286,8 +286,7 @@ impl Description {
             let ring = ring.get_ref();
             let &TorusTable { center, axis, radius: major, tube: minor, .. } = ring;
             if !(THINNEST * major..=major).contains(&minor) {
-                let what =
-                    format!("a torus has a `tube` from {THINNEST} to 1 times as thick as its `radius`");
+                let what = format!("a torus has a `tube` of {THINNEST} to 1 times its `radius`");
                 return Err(source.error(at, &what));
             }
             let material = opaque(model, materials, &ring.material, source)?;
