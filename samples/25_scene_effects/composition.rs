@@ -7,7 +7,7 @@ use common::scene::{Camera, DiskLight, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
 use crate::rough::roughen;
-use crate::{Box, Environment, Face, Finish, Solid, Sphere, Strands, ThinLens, is_glass};
+use crate::{Box, Environment, Face, Finish, Solid, Sphere, Strands, ThinLens, Torus, is_glass};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +85,8 @@ pub struct Composition {
     pub solid_bounds: Vec<(Vec3, Vec3)>,
     /// Swept spheres, likewise.
     pub strands: Strands,
+    /// Tori, likewise.
+    pub tori: Vec<Torus>,
     /// The landscape, if there is one.
     pub heightfield: Option<Heightfield>,
     /// True if textures are averaged over a pixel's footprint.
@@ -138,6 +140,7 @@ impl Composition {
             faces: Vec::new(),
             solid_bounds: Vec::new(),
             strands: Strands::default(),
+            tori: Vec::new(),
             heightfield: None,
             filtered: false,
             sky: 1.0,
@@ -164,7 +167,8 @@ impl Composition {
         let boxes = self.boxes.iter().map(|b| b.material as usize);
         let solids = self.solids.iter().map(|solid| solid.material as usize);
         let strands = self.strands.segments.iter().map(|segment| segment.material as usize);
-        meshes.chain(spheres).chain(boxes).chain(solids).chain(strands).collect()
+        let tori = self.tori.iter().map(|torus| torus.material as usize);
+        meshes.chain(spheres).chain(boxes).chain(solids).chain(strands).chain(tori).collect()
     }
 
     /// Number of spheres that move while the shutter is open.

@@ -33,6 +33,8 @@ common::shader_enum! {
         Plane,
         /// Convex solids that a shader intersects (22).
         Solids,
+        /// Tori that a shader intersects (33).
+        Tori,
         /// Shadows of a light at a place (34).
         PointShadows,
         /// Shadows of a light at infinity (05).

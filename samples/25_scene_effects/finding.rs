@@ -76,6 +76,7 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         SweptSpheres => count(scene.strands.segments.len(), "segment"),
         Heightfield => scene.heightfield.as_ref().map(|_| "there is a heightfield".to_owned()),
         Solids => count(scene.solids.len(), "solid"),
+        Tori => count(scene.tori.len(), "torus").map(|n| n.replace("toruss", "tori")),
         Plane => scene.plane.as_ref().map(|_| "there is a plane".to_owned()),
         PointShadows => light(
             &|l| l.shadows && l.disk.light.kind == LightKind::Point,
@@ -124,6 +125,7 @@ fn why_not(effect: Effect) -> &'static str {
         Heightfield => "no heightfield",
         Plane => "no plane",
         Solids => "no solid",
+        Tori => "no torus",
         PointShadows => "no point light casts shadows",
         DirectionalShadows => "no directional light casts shadows",
         AreaLight => "no light that casts shadows has a size",

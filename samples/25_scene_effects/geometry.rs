@@ -6,7 +6,7 @@ use common::gpu::order::{self, around};
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, padded};
 use common::model::panorama::Panorama;
 use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
-use effects::{Composition, EmitterAddresses, Environment, Lamps, Sphere};
+use effects::{Composition, EmitterAddresses, Environment, Lamps, Sphere, Torus};
 use glam::{Affine3A, Vec3};
 
 use crate::microfacets::{MicrofacetRecord, RoughOnGpu};
@@ -87,6 +87,9 @@ impl SceneGeometry {
         let as_they_come: Vec<u32> = (0..from.strands.nodes.len() as u32).collect();
         geometry.shapes.nodes =
             geometry.records(gpu, "nodes", &from.strands.nodes, &as_they_come)?;
+        let bounds: Vec<_> = from.tori.iter().map(Torus::bounds).collect();
+        let order = geometry.level(gpu, GeometryKind::Torus, &bounds)?;
+        geometry.shapes.tori = geometry.records(gpu, "tori", &from.tori, &order)?;
         let finishes = from.finishes_to_read();
         let as_they_come: Vec<u32> = (0..finishes.len() as u32).collect();
         geometry.shapes.finishes = geometry.records(gpu, "finishes", finishes, &as_they_come)?;
@@ -247,8 +250,9 @@ fn reach(scene: &Composition, eye: Vec3) -> f32 {
     let ground = scene.heightfield.iter().map(crate::ground::bounds);
     let solids = scene.solid_bounds.iter().copied();
     let strands = scene.strands.bounds();
-    let all: Vec<_> =
-        meshes.chain(spheres).chain(boxes).chain(ground).chain(solids).chain(strands).collect();
+    let tori = scene.tori.iter().map(Torus::bounds);
+    let shapes = spheres.chain(boxes).chain(ground).chain(solids).chain(strands).chain(tori);
+    let all: Vec<_> = meshes.chain(shapes).collect();
     let lens = 0.5 * scene.lens.diameter;
     let (low, high) = around(&[around(&all), (eye - lens, eye + lens)]);
     // A plane goes on beyond all that; a shadow's ray that begins ten times as far is a speck.

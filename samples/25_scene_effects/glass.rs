@@ -4,9 +4,9 @@
 use common::scene::Material;
 use glam::{DVec3, Vec3};
 
-use crate::Composition;
 use crate::glass_of_27::{AIR, media_at};
 pub use crate::glass_of_27::{Glass, Kind as GlassKind};
+use crate::{Composition, Torus};
 
 /// Tests whether light enters a material.
 pub fn is_glass(material: &Material) -> bool {
@@ -45,11 +45,21 @@ impl Composition {
             let faces = &self.faces[solid.first as usize..][..solid.count as usize];
             faces.iter().all(|face| face.normal.as_dvec3().dot(from) <= face.distance.into())
         });
+        let tori = self.tori.iter().filter(|torus| is_in_tube(torus, point));
         let shapes = spheres.map(|s| s.material).chain(boxes.map(|b| b.material));
-        let shapes = shapes.chain(solids.map(|s| s.material)).filter(|&number| is_body(number));
+        let shapes = shapes.chain(solids.map(|s| s.material)).chain(tori.map(|t| t.material));
+        let shapes = shapes.filter(|&number| is_body(number));
         let mut media: Vec<u32> = shapes.chain(media_at(&self.scene, point)).collect();
         media.sort_unstable();
         media.resize(4, AIR);
         [media[0], media[1], media[2], media[3]]
     }
+}
+
+/// Tests whether a point is inside a torus.
+fn is_in_tube(torus: &Torus, point: DVec3) -> bool {
+    let from = point - torus.center.as_dvec3();
+    let height = from.dot(torus.axis.as_dvec3().normalize());
+    let across = (from.length_squared() - height * height).max(0.0).sqrt();
+    (across - f64::from(torus.major)).hypot(height) < f64::from(torus.minor)
 }

@@ -1,7 +1,7 @@
 //! Effects that scenes need, found from a scene alone, and the scene files that describe them.
 //!
 //! Nothing here knows a device. The chapter makes its pipelines from these bits; its tests make scenes from
-//! them. What chapters 18, 27, 28 and 29 teach of the host is read from their own files.
+//! them. What chapters 18, 27, 28, 29 and 33 teach of the host is read from their own files.
 
 #[path = "../29_emitters/alias.rs"]
 mod alias;
@@ -24,6 +24,9 @@ mod rough;
 mod shapes;
 #[path = "../18_swept_spheres/strands.rs"]
 mod strands;
+#[allow(dead_code, reason = "33 also has a chain, and materials of its own")]
+#[path = "../33_roots/tori.rs"]
+mod tori;
 
 pub use alias::Column;
 pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, MAX_LIGHTS, SceneLight};
@@ -40,3 +43,4 @@ pub use normal_maps::NORMAL_MAPS;
 pub use rough::{is_rough, rough_textures};
 pub use shapes::{Box, Face, Solid, Sphere};
 pub use strands::{Node, Segment, Strands};
+pub use tori::Torus;

@@ -23,6 +23,8 @@ pub enum GeometryKind {
     Solid,
     /// Swept spheres.
     Strand,
+    /// Tori.
+    Torus,
 }
 
 impl GeometryKind {
@@ -35,17 +37,19 @@ impl GeometryKind {
             Self::Ground => "a heightfield",
             Self::Solid => "solids",
             Self::Strand => "strands",
+            Self::Torus => "tori",
         }
     }
 
     /// All kinds, in the order of hit records and mask bits, each with the effect that triggers it.
-    pub const ALL: [(Self, Effect); 6] = [
+    pub const ALL: [(Self, Effect); 7] = [
         (Self::Mesh, Triangles),
         (Self::Sphere, Spheres),
         (Self::Box, Boxes),
         (Self::Ground, Heightfield),
         (Self::Solid, Solids),
         (Self::Strand, SweptSpheres),
+        (Self::Torus, Tori),
     ];
 
     /// Its bit of the cull mask.
@@ -143,6 +147,7 @@ impl Recipe {
             GeometryKind::Ground => HitGroup::procedural("ground.rint").closest_hit("ground.rchit"),
             GeometryKind::Solid => HitGroup::procedural("solid.rint").closest_hit("solid.rchit"),
             GeometryKind::Strand => HitGroup::procedural("strand.rint").closest_hit("strand.rchit"),
+            GeometryKind::Torus => HitGroup::procedural("torus.rint").closest_hit("torus.rchit"),
         }
     }
 

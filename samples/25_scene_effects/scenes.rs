@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 22] = [
+pub const SCENES: [&str; 23] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -18,6 +18,7 @@ pub const SCENES: [&str; 22] = [
     "mirror balls",
     "solids",
     "knot",
+    "chain",
     "lake",
     "colonnade",
     "painted room",
@@ -31,9 +32,9 @@ pub const SCENES: [&str; 22] = [
 ];
 
 /// Number of the scene at the start of the chapter.
-pub const EVERYTHING: u32 = 20;
+pub const EVERYTHING: u32 = 21;
 /// Number of the scene that `--scene` opens.
-pub const FILE: u32 = 21;
+pub const FILE: u32 = 22;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

@@ -7,7 +7,7 @@ use common::scene::plane::Plane;
 use common::scene::{DiskLight, Light, LightKind};
 use effects::{
     BoardPlane, Column, Composition, Emitter, EmitterAddresses, Face, Finish, Glass, Lens,
-    MAX_LIGHTS, Node, Segment, Solid, Sphere,
+    MAX_LIGHTS, Node, Segment, Solid, Sphere, Torus,
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -31,6 +31,8 @@ pub struct Shapes {
     pub nodes: vk::DeviceAddress,
     /// The address of an array of [`effects::Segment`].
     pub segments: vk::DeviceAddress,
+    /// The address of an array of [`effects::Torus`].
+    pub tori: vk::DeviceAddress,
     /// The address of an array of [`effects::Face`].
     pub faces: vk::DeviceAddress,
     /// The address of an array of [`effects::Finish`].
@@ -108,12 +110,13 @@ common::shader_struct! {
         pub rough_count: u32,
         pub map_count: u32,
         pub moving: u32,
+        pub tori: Address,
         pub filtered: u32,
     }
 }
 
 /// Layouts of the structures behind the world's address.
-pub const LAYOUTS: [StructLayout; 26] = [
+pub const LAYOUTS: [StructLayout; 27] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -127,6 +130,7 @@ pub const LAYOUTS: [StructLayout; 26] = [
     Face::LAYOUT,
     Node::LAYOUT,
     Segment::LAYOUT,
+    Torus::LAYOUT,
     Finish::LAYOUT,
     Glass::LAYOUT,
     Lens::LAYOUT,
@@ -200,6 +204,7 @@ impl World {
             rough_count: shapes.rough_count,
             map_count: shapes.map_count,
             moving: scene.moving() as u32,
+            tori: shapes.tori.into(),
             filtered: scene.filtered.into(),
         }
     }

@@ -8,12 +8,15 @@ use glam::{DVec3, Vec3};
 common::shader_struct! {
     /// All points at the distance `minor` from a circle of radius `major`.
     pub struct Torus {
+        /// Its middle, in the hole.
         pub center: Vec3,
         /// Perpendicular to the circle, of any length but 0.
         pub axis: Vec3,
+        /// The circle's radius.
         pub major: f32,
-        /// At most `major`.
+        /// The tube's radius: at most `major`.
         pub minor: f32,
+        /// The material, by position in the model.
         pub material: u32,
     }
 }

@@ -12,6 +12,7 @@
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
+#include "common/torus.glsl"
 #include "common/rough.glsl"
 #include "common/normal_map.glsl"
 #include "common/sky.glsl"
@@ -140,6 +141,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint rough_count;     // of materials, if one in use has microfacets; else 0
     uint map_count;       // of materials, if one in use has a normal map; else 0
     uint moving;          // whether anything moves while the shutter is open
+    Tori tori;
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
 

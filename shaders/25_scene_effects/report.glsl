@@ -1,4 +1,4 @@
-// The report of the hit shaders of shapes: spheres, boxes and solids, which have no transform.
+// The report of the hit shaders of shapes: spheres, boxes, solids, strands and tori, which have no transform.
 
 #ifdef EFFECT_PATTERNS
 #include "finish.glsl"

@@ -4,9 +4,7 @@
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
 #include "common/show.glsl"
-#include "torus.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Tori { Torus at[]; };
+#include "common/torus.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapeAddresses {
     Tori tori;
@@ -22,9 +20,3 @@ layout(push_constant, scalar) uniform Push {
 
 // Hit kinds of intersection shaders go from 0 to 127; those of triangles are 254 and 255.
 const uint KIND_TORUS = 0;
-
-// The hit attributes: the ring's and the surface's direction at the hit.
-struct Frame {
-    vec3 ring;
-    vec3 outward;
-};

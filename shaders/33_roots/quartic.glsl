@@ -1,20 +1,6 @@
 // The roots of a polynomial of degree four in closed form (Ferrari 1545; as in J. Schwarze, Graphics Gems, 1990).
 // Square roots of differences decide whether there are roots, so near a double root rounding decides.
 
-// The roots of x² + 2b·x + c, the smaller first; none if they are not real. The one whose terms have the
-// same sign loses no digits, and the other follows from the product (Kahan).
-bool quadratic(float b, float c, out vec2 roots) {
-    precise float discriminant = b * b - c;
-    roots = vec2(0.0);
-    if (!(discriminant >= 0.0)) {
-        return false;
-    }
-    precise float far = b > 0.0 ? -b - sqrt(discriminant) : -b + sqrt(discriminant);
-    float near = far != 0.0 ? c / far : 0.0;
-    roots = vec2(min(near, far), max(near, far));
-    return true;
-}
-
 // A third of the exponent is a guess that is off by a twentieth; Newton's method doubles its digits in each step.
 float cube_root(float x) {
     float size = abs(x);

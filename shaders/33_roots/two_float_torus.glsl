@@ -1,4 +1,4 @@
-// A ray against a torus in two-floats: brackets.glsl step by step, with twice the bits, and the polynomial never
+// A ray against a torus in two-floats: common/brackets.glsl step by step, with twice the bits, and the polynomial never
 // expanded.
 //
 // On the torus G = Q² + w·Z² - v is 0, where Q = |p|² - R² - r², Z = p·n, w = 4R²/n·n and v = 4R²r². Along the
@@ -99,23 +99,23 @@ TwoFloat3 ff_moved(TwoFloat3 start, vec2 steps, vec3 d) {
 }
 
 // Ring and normal, as crossing_at(), from two-floats: for a thin tube, 32 bits of |across| - R say little.
-Crossing ff_crossing(float t, TwoFloat3 p, vec2 h, vec3 n, vec2 nn, float major, vec3 d) {
+TorusCrossing ff_crossing(float t, TwoFloat3 p, vec2 h, vec3 n, vec2 nn, float major, vec3 d) {
     vec2 along = ff_div(h, nn);
     TwoFloat3 axial = TwoFloat3(ff_mul(along, n.x), ff_mul(along, n.y), ff_mul(along, n.z));
     TwoFloat3 across = ff_sub(p, axial);
     vec2 size = ff_sqrt(ff_dot(across, across));
     if (!(size.x > 0.0)) {
-        return Crossing(t, vec3(0.0), -normalize(d));
+        return TorusCrossing(t, vec3(0.0), -normalize(d));
     }
     float from_ring = ff_sub(size, vec2(major, 0.0)).x;
     vec3 ring = rounded(across) / size.x;
     precise vec3 outward = from_ring * ring + rounded(axial);
     float largest = max(max(abs(outward.x), abs(outward.y)), abs(outward.z));
-    return Crossing(t, ring, largest > 0.0 ? normalize(outward / largest) : -normalize(d));
+    return TorusCrossing(t, ring, largest > 0.0 ? normalize(outward / largest) : -normalize(d));
 }
 
-bool torus_two_float(vec3 o, vec3 d, Torus torus, float tmin, out Crossing first) {
-    first = Crossing(0.0, vec3(0.0), vec3(0.0));
+bool torus_two_float(vec3 o, vec3 d, Torus torus, float tmin, out TorusCrossing first) {
+    first = TorusCrossing(0.0, vec3(0.0), vec3(0.0));
     // Powers of two that bring lengths near 1: a product with them rounds nothing.
     int size = exponent_of(torus.major);
     int speed = exponent_of(d);

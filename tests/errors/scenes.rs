@@ -472,6 +472,26 @@ fn things_that_are_wrong() {
         &strand("[[0, 1, 0, 0], [0, 2, 0, 0.0]]"),
         "s.toml:10: every radius is 0, and such a strand has no surface",
     );
+    let torus =
+        |keys: &str| format!("{PAINT}[[torus]]\ncenter = [0, 1, 0]\nmaterial = \"a\"\n{keys}\n");
+    for tube in ["0.0024", "1.0001"] {
+        table_refused(
+            &torus(&format!("axis = [0, 1, 0]\nradius = 1\ntube = {tube}")),
+            "s.toml:8: a torus has a `tube` of 0.0025 to 1 times its `radius`",
+        );
+    }
+    table_refused(
+        &torus("axis = [0, 0, 0]\nradius = 1\ntube = 0.5"),
+        "s.toml:11: a direction has a length: [0, 1, 0] is up",
+    );
+    table_refused(
+        &torus("axis = [0, 1, 0]\nradius = 1\ntube = 0"),
+        "s.toml:13: 0.0 is not a number from 0.000001 to 1000000",
+    );
+    table_refused(
+        &torus("axis = [0, 1, 0]\nradius = 1"),
+        "s.toml:8: the key `tube` is missing in this table",
+    );
     table_refused("[[material]]\nname = \"\"\n", "s.toml:6: a material has a name: name = \"red\"");
     table_refused(&strand("[[0, 1, 0], [0, 2, 0, 1]]"), "s.toml:10: 3 numbers where there are 4");
     table_refused(

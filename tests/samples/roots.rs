@@ -28,6 +28,8 @@ const METHODS: [(&str, u32, bool); 7] = [
     ("two-float", 3, true),
 ];
 const TOP: usize = 6;
+/// The number of 33's brackets, and of those of 25_scene_effects, in the test's shader.
+const BRACKETS: [u32; 2] = [1, 4];
 
 #[test]
 fn the_picture_repeats() {
@@ -87,6 +89,7 @@ fn all_methods_by_the_driver() {
     let gpu = device(Arithmetic::Driver);
     let families = FAMILIES.map(|family| Exact::new(cases(family)));
     hard_cases_hold(&gpu);
+    brackets_of_25_are_those_of_33(&gpu, &families);
     let mut held = Map::new();
     for (method, (name, ..)) in METHODS.iter().enumerate() {
         let tallies = tallies(&gpu, method, &families);
@@ -106,6 +109,17 @@ fn all_methods_by_the_driver() {
     if cases::seed().is_none() {
         expected::hold("33_roots/methods", Value::Object(held));
     }
+}
+
+/// Both find the same hits, with the same bits of t and of the normal.
+fn brackets_of_25_are_those_of_33(gpu: &Gpu, families: &[Exact]) {
+    let all: Vec<_> = families.iter().flat_map(|exact| &exact.cases).copied().collect();
+    let [own, other] = BRACKETS.map(|number| call(gpu, number, true, &all));
+    for ((case, own), other) in all.iter().zip(&own).zip(&other) {
+        assert_eq!(own, other, "{case:?}");
+    }
+    let hits = own.iter().flatten().count();
+    assert!(hits > all.len() / 3, "only {hits} of {} rays hit", all.len());
 }
 
 /// The cases of `tests/data/torus_cases.json`: every top answer is right, and the simplest method fails.

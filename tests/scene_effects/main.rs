@@ -11,6 +11,7 @@ mod plots;
 mod rough;
 mod sky;
 mod time;
+mod tori;
 mod why;
 
 use std::collections::BTreeSet;
@@ -29,7 +30,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects of each, and the stages, listed by hand. Every pipeline has
 /// `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 21] = [
+const SCENES: [(&str, &[Effect], &[&str]); 22] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -69,6 +70,11 @@ const SCENES: [(&str, &[Effect], &[&str]); 21] = [
         "knot",
         &[SweptSpheres, Plane, DirectionalShadows, Mirror],
         &["common/shadow.rmiss", "strand.rint", "strand.rchit"],
+    ),
+    (
+        "chain",
+        &[Plane, Tori, DirectionalShadows, Mirror],
+        &["common/shadow.rmiss", "torus.rint", "torus.rchit"],
     ),
     (
         "lake",
@@ -121,7 +127,7 @@ const SCENES: [(&str, &[Effect], &[&str]); 21] = [
     ("everything", Effect::ALL, &EVERY_STAGE),
 ];
 
-const EVERY_STAGE: [&str; 12] = [
+const EVERY_STAGE: [&str; 14] = [
     "common/shadow.rmiss",
     "mesh.rchit",
     "cut_out.rahit",
@@ -134,6 +140,8 @@ const EVERY_STAGE: [&str; 12] = [
     "solid.rchit",
     "strand.rint",
     "strand.rchit",
+    "torus.rint",
+    "torus.rchit",
 ];
 
 fn run(size: &str, scene: &[&str], sets: &[&str]) -> Run {
@@ -198,7 +206,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     }
     let groups = &pipeline["groups"];
     let misses = 1 + u64::from(shadows);
-    let kinds = [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids];
+    let kinds = [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids, Tori];
     let hits = kinds.into_iter().filter(|&kind| effects.has(kind)).count();
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
@@ -381,7 +389,7 @@ fn every_effect_that_a_chapter_declares_is_in_the_table_and_in_the_shaders() {
         // Each effect has its own stage or line. Geometry has none: its stages are chosen.
         let used = sources.iter().filter(|text| text.contains(&define)).count();
         let geometry =
-            [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids].contains(&effect);
+            [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids, Tori].contains(&effect);
         assert!(used > 1 || geometry, "no shader asks for {define}");
     }
 }
@@ -422,6 +430,7 @@ fn the_page_of_the_format_lists_every_key() {
         "[[box]]",
         "[[solid]]",
         "[[strand]]",
+        "[[torus]]",
     ];
     let folder = tempfile::tempdir().unwrap();
     for table in tables.iter().chain(&lists).chain(&[""]) {

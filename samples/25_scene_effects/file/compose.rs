@@ -15,6 +15,7 @@ use toml::Spanned;
 use super::departure;
 use super::description::{
     CameraTable, Description, LensTable, PieceTable, PlaneTable, Sky, SkyTable, SphereTable,
+    TorusTable,
 };
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
@@ -23,14 +24,20 @@ use crate::composition::{close, pinhole};
 use crate::normal_maps::own_map;
 use crate::{
     Box, Composition, Environment, Finish, MAX_LIGHTS, NORMAL_MAPS, Node, SKIES, Sphere, Strands,
-    ThinLens, is_blended, is_body, is_glass,
+    ThinLens, Torus, is_blended, is_body, is_glass,
 };
 
-/// Pieces, spheres, boxes, solids and materials, each.
+/// Pieces, shapes of each kind, and materials, each.
 const MOST: usize = 100_000;
 
 /// Meshes of all pieces: an object of several materials is several.
 const MOST_MESHES: usize = 1_000_000;
+
+/// The least radius of a torus's tube, in radii of its ring.
+///
+/// Where a ray leaves the surface, the error of the polynomial is 8u·R²/r (`shaders/common/torus.glsl`). Below 0.0022,
+/// r² = 80u·R², that is more than a tenth of the tube, and no start is safe.
+const THINNEST: f32 = 0.0025;
 
 impl Description {
     /// Builds the composition that the file describes.
@@ -45,6 +52,7 @@ impl Description {
         source.check(&self.boxes, MOST, "boxes")?;
         source.check(&self.solid, MOST, "solids")?;
         source.check(&self.strand, MOST, "strands")?;
+        source.check(&self.torus, MOST, "tori")?;
         let mut model = self.model(path, source)?;
         let (materials, finishes) = self.paint(&mut model, source)?;
         let view = self.camera.get_ref();
@@ -83,6 +91,7 @@ impl Description {
             faces: Vec::new(),
             solid_bounds: Vec::new(),
             strands: Strands::default(),
+            tori: Vec::new(),
             heightfield: heightfield.transpose()?,
             filtered: self.picture.filtered,
             sky,
@@ -271,6 +280,17 @@ impl Description {
             let nodes = chain.nodes.iter();
             let node = |&[x, y, z, radius]: &[f32; 4]| Node { center: Vec3::new(x, y, z), radius };
             to.strands.chain(nodes.map(node), material);
+        }
+        for ring in &self.torus {
+            let at = ring.span().start;
+            let ring = ring.get_ref();
+            let &TorusTable { center, axis, radius: major, tube: minor, .. } = ring;
+            if !(THINNEST * major..=major).contains(&minor) {
+                let what = format!("a torus has a `tube` of {THINNEST} to 1 times its `radius`");
+                return Err(source.error(at, &what));
+            }
+            let material = opaque(model, materials, &ring.material, source)?;
+            to.tori.push(Torus { center, axis, major, minor, material });
         }
         Ok(())
     }

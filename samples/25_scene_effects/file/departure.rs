@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 
 use glam::Vec3;
 
-use crate::{Composition, Sphere};
+use crate::{Composition, Sphere, Torus};
 
 /// The error of one rounding in 32 bits, relative.
 const ROUNDING: f32 = f32::EPSILON / 2.0;
@@ -50,6 +50,7 @@ pub(super) fn told(of: &Composition) -> Told {
     let instances = of.scene.bounds_of_instances();
     let blocks = of.boxes.iter().map(|block| (block.low, block.high));
     let boxes = instances.iter().copied().chain(blocks).chain(of.solid_bounds.iter().copied());
+    let boxes = boxes.chain(of.tori.iter().map(Torus::bounds));
     let things: Vec<Thing> = of.spheres.iter().map(ball).chain(boxes.map(Thing::within)).collect();
     Told {
         sphere: too_high(&of.spheres, &things),

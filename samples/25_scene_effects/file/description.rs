@@ -42,6 +42,8 @@ pub(super) struct Description {
     pub(super) solid: Vec<Spanned<SolidTable>>,
     #[serde(default)]
     pub(super) strand: Vec<Spanned<StrandTable>>,
+    #[serde(default)]
+    pub(super) torus: Vec<Spanned<TorusTable>>,
     pub(super) heightfield: Option<Spanned<HeightfieldTable>>,
 }
 
@@ -257,6 +259,20 @@ pub(super) struct SolidTable {
 pub(super) struct StrandTable {
     #[serde(deserialize_with = "bounded::nodes")]
     pub(super) nodes: Vec<[f32; 4]>,
+    pub(super) material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table, [[torus]]")]
+pub(super) struct TorusTable {
+    #[serde(deserialize_with = "bounded::point")]
+    pub(super) center: Vec3,
+    #[serde(deserialize_with = "bounded::direction")]
+    pub(super) axis: Vec3,
+    #[serde(deserialize_with = "bounded::length")]
+    pub(super) radius: f32,
+    #[serde(deserialize_with = "bounded::length")]
+    pub(super) tube: f32,
     pub(super) material: Spanned<String>,
 }
 

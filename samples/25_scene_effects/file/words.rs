@@ -5,7 +5,8 @@ const ABOVE: [&str; 4] = ["version", "model", "position", "sky"];
 
 /// The tables of which there is one, and those of which there may be several.
 pub(super) const ONCE: [&str; 4] = ["picture", "camera", "plane", "heightfield"];
-const SEVERAL: [&str; 7] = ["light", "material", "piece", "sphere", "box", "solid", "strand"];
+const SEVERAL: [&str; 8] =
+    ["light", "material", "piece", "sphere", "box", "solid", "strand", "torus"];
 
 const LINE: &str = "a line is `key = value`, `[table]` or `[[table]]`; a comment begins with `#`";
 const LIST: &str = "a list is [0, 1, 5], with commas between its values and a `]` at its end";

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use anyhow::Result;
-use effects::{Composition, findings, needed};
+use effects::{Composition, Torus, findings, needed};
 
 use super::{corpus, object, ours};
 use crate::format::{Format, Function};
@@ -45,14 +45,15 @@ fn read(path: &Path) -> Result<String> {
 
 /// Checks that every index refers to something, and that nothing is out of reach of rays.
 fn whole(composition: &Composition) {
-    let Composition { scene, lights, spheres, boxes, solids, faces, solid_bounds, .. } =
+    let Composition { scene, lights, spheres, boxes, solids, faces, solid_bounds, tori, .. } =
         composition;
     object::whole(&scene.model);
     let materials = scene.model.materials.len();
     assert_eq!(composition.finishes.len(), materials);
     let worn = scene.instances.iter().map(|instance| instance.material);
     let worn = worn.chain(spheres.iter().map(|sphere| sphere.material as usize));
-    let mut worn = worn.chain(boxes.iter().map(|block| block.material as usize));
+    let worn = worn.chain(boxes.iter().map(|block| block.material as usize));
+    let mut worn = worn.chain(tori.iter().map(|torus| torus.material as usize));
     assert!(worn.all(|material| material < materials), "there is no such material");
     for instance in &scene.instances {
         assert!(instance.mesh < scene.model.meshes.len(), "there is no mesh {}", instance.mesh);
@@ -65,7 +66,8 @@ fn whole(composition: &Composition) {
     for solid in solids {
         assert!((solid.first + solid.count) as usize <= faces.len(), "there are no such faces");
     }
-    for (low, high) in solid_bounds {
+    let of_tori: Vec<_> = tori.iter().map(Torus::bounds).collect();
+    for (low, high) in solid_bounds.iter().chain(&of_tori) {
         assert!(low.is_finite() && high.is_finite() && low.cmplt(*high).all(), "{low} to {high}");
     }
     assert!(lights.len() <= effects::MAX_LIGHTS);

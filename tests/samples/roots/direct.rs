@@ -32,7 +32,7 @@ common::shader_struct! {
 
 common::shader_struct! {
     /// A crossing of a line with the surface.
-    struct Crossing {
+    struct TorusCrossing {
         t: f32,
         ring: Vec3,
         outward: Vec3,
@@ -42,7 +42,7 @@ common::shader_struct! {
 common::shader_struct! {
     struct Answer {
         hit: u32,
-        first: Crossing,
+        first: TorusCrossing,
     }
 }
 
@@ -124,7 +124,7 @@ pub fn call(gpu: &Gpu, method: u32, conditioned: bool, cases: &[Case]) -> Vec<Op
     let mut answers: Vec<Answer> = output.read().unwrap();
     answers.truncate(cases.len());
     let first = |(answer, case): (Answer, &Case)| {
-        let Crossing { t, outward, .. } = answer.first;
+        let TorusCrossing { t, outward, .. } = answer.first;
         let is_hit = answer.hit != 0 && case.ray.contains(t.into());
         is_hit.then(|| Found { t, normal: outward.as_dvec3() })
     };

@@ -1,25 +1,15 @@
+// Taught by 33_roots.
+//
 // A ray against a torus, as a polynomial of degree four.
 //
 // Seen from the centre, a point p lies on the torus if (|p|² + R² - r²)² = 4R²·(|p|² - (p·n)²), where n is the
 // unit axis, R the distance from the centre to the middle of the tube, and r the tube's radius. With the ray's
 // point p = f + x·d both sides are polynomials in x.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
-
-const uint METHOD_FERRARI = 0;
-const uint METHOD_BRACKETS = 1;
-const uint METHOD_STURM = 2;
-const uint METHOD_TWO_FLOAT = 3;
-
-struct Torus {
-    vec3 center;
-    vec3 axis;       // any length but 0
-    float major;     // R, from the centre to the middle of the tube
-    float minor;     // r, of the tube: at most R
-    uint material;
-};
+#include "torus.glsl"
 
 // Where a line goes through the surface.
-struct Crossing {
+struct TorusCrossing {
     float t;
     vec3 ring;       // from the centre towards the middle of the tube there: unit
     vec3 outward;    // the unit normal
@@ -41,25 +31,6 @@ float value(Quartic q, float x) {
 Quartic derivative(Quartic q) {
     return Quartic(float[5](q.c[1], 2.0 * q.c[2], 3.0 * q.c[3], 4.0 * q.c[4], 0.0));
 }
-
-// ANCHOR: expanded
-// The polynomial as it comes from the formula, seen from the ray's origin. From a distance D its constant term
-// is about D⁴, and a hit differs from a miss by no more than 4R²·r².
-Quartic quartic_from_origin(vec3 f, vec3 d, vec3 n, float major, float minor) {
-    precise float dd = dot(d, d);
-    precise float fd = dot(f, d);
-    precise float k = dot(f, f) + major * major - minor * minor;
-    precise float h = dot(f, n);
-    precise float rate = dot(d, n);
-    precise float four = 4.0 * major * major;
-    precise float c0 = k * k - four * (dot(f, f) - h * h);
-    precise float c1 = 4.0 * fd * k - 2.0 * four * (fd - h * rate);
-    precise float c2 = 4.0 * fd * fd + 2.0 * dd * k - four * (dd - rate * rate);
-    precise float c3 = 4.0 * dd * fd;
-    precise float c4 = dd * dd;
-    return Quartic(float[5](c0, c1, c2, c3, c4));
-}
-// ANCHOR_END: expanded
 
 // ANCHOR: line
 // The line with its origin moved to the point nearest to the centre, a unit direction, and R as the unit of length.
@@ -94,14 +65,21 @@ Quartic quartic_at_foot(Line line, vec3 n, float minor) {
 }
 // ANCHOR_END: line
 
+// The search ends where the line leaves the ball around the torus: so far from that point, to both sides.
+bool reach_in_ball(Line line, float minor, out float reach) {
+    precise float square = (1.0 + minor) * (1.0 + minor) - dot(line.p, line.p);
+    reach = sqrt(max(square, 0.0)) + 0.001;
+    return square >= -1e-4;
+}
+
 // Ring and normal at a point p relative to the centre, in units of R. The middle of the hole of a torus without a
 // hole has no ring: there the normal looks back along the ray.
-Crossing crossing_at(float t, vec3 p, vec3 n, vec3 d) {
+TorusCrossing crossing_at(float t, vec3 p, vec3 n, vec3 d) {
     precise float h = dot(p, n);
     precise vec3 across = p - h * n;
     precise float size = sqrt(dot(across, across));
     vec3 ring = size > 0.0 ? across / size : vec3(0.0);
     precise vec3 outward = (size - 1.0) * ring + h * n;
     precise float square = dot(outward, outward);
-    return Crossing(t, ring, size > 0.0 && square > 0.0 ? outward / sqrt(square) : -normalize(d));
+    return TorusCrossing(t, ring, size > 0.0 && square > 0.0 ? outward / sqrt(square) : -normalize(d));
 }

@@ -1,9 +1,25 @@
+// Taught by 33_roots.
+//
 // The roots of a polynomial by Newton's method in brackets (C. Yuksel, High-Performance Polynomial Root Finding
 // for Graphics, HPG 2022).
 //
 // Between two neighbouring roots of its derivative a polynomial only rises or only falls, so it has a root there if
 // its signs at both ends differ, and no more than one. The derivative's roots are found in the same way, down to a
 // quadratic.
+
+// The roots of x² + 2b·x + c, the smaller first; none if they are not real. The one whose terms have the
+// same sign loses no digits, and the other follows from the product (Kahan).
+bool quadratic(float b, float c, out vec2 roots) {
+    precise float discriminant = b * b - c;
+    roots = vec2(0.0);
+    if (!(discriminant >= 0.0)) {
+        return false;
+    }
+    precise float far = b > 0.0 ? -b - sqrt(discriminant) : -b + sqrt(discriminant);
+    float near = far != 0.0 ? c / far : 0.0;
+    roots = vec2(min(near, far), max(near, far));
+    return true;
+}
 
 // A step of Newton's method that would leave the bracket is replaced by the bracket's middle.
 const int NEWTON_STEPS = 40;
