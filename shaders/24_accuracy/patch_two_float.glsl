@@ -151,8 +151,11 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
         v = patch_shares(v);
         vec2 over = patch_mix(u, patch_mix(v, height[0], height[2]), patch_mix(v, height[1], height[3]));
         vec2 under = ff_mul(ff_mul(ff_add(u.over, u.under), ff_add(v.over, v.under)), along);
-        vec2 t = scaled(ff_add(vec2(start, 0.0), ff_div(over, under)), size - speed);
-        if (ff_within(t, tmin, tmax)) {
+        vec2 t = ff_add(vec2(start, 0.0), ff_div(over, under));
+        // A hit nearer to tmin than two-floats can tell is at tmin, as where the ray leaves the patch itself.
+        bool is_past = ff_sub(t, vec2(scaled(tmin, speed - size), 0.0)).x > 2.3e-13;
+        t = scaled(t, size - speed);
+        if (is_past && ff_within(t, tmin, tmax)) {
             if (hits.count == 0 || ff_less(t, first)) {
                 first = t;
                 first_u = u;
