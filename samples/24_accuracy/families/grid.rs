@@ -47,7 +47,7 @@ fn point(random: &mut Random, number: usize, is_on_face: bool) -> DVec3 {
         let mut ends = [within(random), within(random)];
         if is_on_face {
             // Not every face has a part of the surface: each try has its own.
-            let k = random.below(3) as usize;
+            let k = random.below(3);
             let at = if random.below(2) == 0 { LOW[k] } else { HIGH[k] };
             ends.iter_mut().for_each(|end| end[k] = at.into());
         }
@@ -91,7 +91,7 @@ pub fn voxels(draw: Draw) -> Vec<Family> {
     };
     // Parallel to a plane of two axes, or nearly: the polynomial has degree two, or nearly.
     let flat = &mut |random: &mut Random, number: usize| {
-        let k = random.below(3) as usize;
+        let k = random.below(3);
         let mut direction = random.unit();
         direction[k] = if random.below(2) == 0 { 0.0 } else { random.scale(1e-9, 1e-4) };
         let target = within(random);
