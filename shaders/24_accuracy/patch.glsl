@@ -1,7 +1,7 @@
 // A ray against a bilinear patch: the surface between four corners, which two families of straight lines cover. At u, a line
 // leads from the edge q00-q10 to the edge q01-q11; at v, one leads from q00-q01 to q10-q11.
 //
-// Edges and corners belong to the patch. Two hits at one point count once, and a ray that lies in the surface misses it.
+// Edges and corners belong to the patch. Two hits at one point count once in two-floats and in 64 bits, and a ray that lies in the surface misses it.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
 const uint PATCH_TEXTBOOK = 0;
@@ -111,7 +111,7 @@ bool patch_is_within(vec2 x) {
 
 // ANCHOR: stable
 // The origin moves along the ray to the patch, which is then seen along the ray, as flat. Six areas between its corners decide
-// which hits there are; the rounding of a far origin is not in them.
+// which hits there are. They do not grow with the distance, but `there` is rounded as the ray's origin is.
 PatchHits patch_stable(Patch q, vec3 o, vec3 d, float tmin, float tmax) {
     precise vec3 middle = 0.25 * (q.q00 + q.q10 + q.q01 + q.q11);
     precise float start = dot(middle - o, d) / dot(d, d);

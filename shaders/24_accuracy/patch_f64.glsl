@@ -15,6 +15,14 @@ bool patch_is_within(dvec2 x) {
     return x != dvec2(0.0LF) && (min(x.x, x.y) >= 0.0LF || max(x.x, x.y) <= 0.0LF);
 }
 
+// As in two-floats: whether the line at `x`, whose ends are at `one` and `other` along the ray, has no length.
+bool patch_is_point(dvec2 x, dvec2 one, dvec2 other, double size) {
+    precise double start = abs(x.y) * one.x + abs(x.x) * one.y;
+    precise double end = abs(x.y) * other.x + abs(x.x) * other.y;
+    precise double most = 9.1e-13LF * size * (abs(x.x) + abs(x.y));    // 2^-40
+    return abs(start - end) <= most;
+}
+
 double patch_area(dvec2 p, dvec2 q) {
     precise double area = p.x * q.y - p.y * q.x;
     return area;
@@ -33,6 +41,7 @@ void patch_float64(Patch q, vec3 o, vec3 direction, float tmin, float tmax, out 
     vec3 corner[4] = vec3[4](q.q00, q.q10, q.q01, q.q11);
     dvec2 seen[4];
     double along[4];
+    double highest = 0.0LF;
     for (int n = 0; n < 4; n++) {
         precise dvec3 p = dvec3(corner[n]) - there;
         p = axis == 0 ? p.yzx : axis == 1 ? p.zxy : p;
@@ -40,6 +49,7 @@ void patch_float64(Patch q, vec3 o, vec3 direction, float tmin, float tmax, out 
         precise double distance_along = dot(p, ahead);
         seen[n] = across;
         along[n] = distance_along;
+        highest = max(highest, abs(distance_along));
     }
     double u0 = patch_area(seen[0], seen[2]);
     double u2 = patch_area(seen[1], seen[3]);
@@ -62,10 +72,12 @@ void patch_float64(Patch q, vec3 o, vec3 direction, float tmin, float tmax, out 
     for (float side = -1.0; side <= (root > 0.0LF ? 1.0 : -1.0); side += 2.0) {
         dvec2 u = patch_root(u0, u1, u2, root, double(side));
         dvec2 v = patch_root(v2, v1, v0, root, double(side)).yx;
-        if (!has_u && (v.x == 0.0LF && q.q00 == q.q10 || v.y == 0.0LF && q.q01 == q.q11)) {
+        if (!has_u && patch_is_within(v)
+            && patch_is_point(v, dvec2(along[0], along[2]), dvec2(along[1], along[3]), highest)) {
             u = dvec2(1.0LF);
         }
-        if (!has_v && (u.x == 0.0LF && q.q00 == q.q01 || u.y == 0.0LF && q.q10 == q.q11)) {
+        if (!has_v && patch_is_within(u)
+            && patch_is_point(u, dvec2(along[0], along[1]), dvec2(along[2], along[3]), highest)) {
             v = dvec2(1.0LF);
         }
         if (!patch_is_within(u) || !patch_is_within(v)) {

@@ -59,6 +59,11 @@ vec2 patch_from(float corner, vec2 there) {
     return sum_total(sum);
 }
 
+// Whether a line of the surface that the ray meets all along has no length: its ends are as far along the ray.
+bool patch_is_point(vec2 end, vec2 other, float size) {
+    return abs(ff_sub(end, other).x) <= 9.1e-13 * size;    // 2^-40
+}
+
 // Products that need not cancel to the last digit.
 TwoFloat3 patch_cross(TwoFloat3 a, TwoFloat3 b) {
     return TwoFloat3(ff_sub(ff_mul(a.y, b.z), ff_mul(a.z, b.y)), ff_sub(ff_mul(a.z, b.x), ff_mul(a.x, b.z)),
@@ -93,6 +98,7 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
     vec2 x[4];
     vec2 y[4];
     vec2 height[4];
+    float highest = 0.0;
     for (int n = 0; n < 4; n++) {
         vec3 corner = patch_turned(corners[n], axis);
         TwoFloat3 p =
@@ -100,6 +106,7 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
         x[n] = ff_determinant(p.x, p.z, ahead.x, ahead.z);
         y[n] = ff_determinant(p.y, p.z, ahead.y, ahead.z);
         height[n] = patch_dot(p, ff_vector(ahead));
+        highest = max(highest, abs(height[n].x));
     }
     // Areas u0, u2, v0, v2 and both diagonals', as in patch_stable().
     ivec2 pairs[6] = ivec2[6](ivec2(0, 2), ivec2(1, 3), ivec2(0, 1), ivec2(2, 3), ivec2(0, 3), ivec2(1, 2));
@@ -137,12 +144,19 @@ void patch_two_float(Patch q, vec3 o, vec3 d, float tmin, float tmax, out PatchH
         // Of (1 - v) / v.
         Fraction v = patch_root(area[3], v1, area[2], root, side);
         v = Fraction(v.under, v.over);
-        // Every line of one kind meets the ray: it lies in the surface, or goes through the point that an edge may be.
-        if (!has_u && (v.over.x == 0.0 && q.q00 == q.q10 || v.under.x == 0.0 && q.q01 == q.q11)) {
-            u = Fraction(vec2(1.0, 0.0), vec2(1.0, 0.0));
+        // Every line of one kind meets the ray: it lies in one of the other kind, or goes through one that is a point, as
+        // an edge may be, or the middle of a bow.
+        if (!has_u && patch_is_within(v)) {
+            Fraction at = patch_shares(v);
+            if (patch_is_point(patch_mix(at, height[0], height[2]), patch_mix(at, height[1], height[3]), highest)) {
+                u = Fraction(vec2(1.0, 0.0), vec2(1.0, 0.0));
+            }
         }
-        if (!has_v && (u.over.x == 0.0 && q.q00 == q.q01 || u.under.x == 0.0 && q.q10 == q.q11)) {
-            v = Fraction(vec2(1.0, 0.0), vec2(1.0, 0.0));
+        if (!has_v && patch_is_within(u)) {
+            Fraction at = patch_shares(u);
+            if (patch_is_point(patch_mix(at, height[0], height[1]), patch_mix(at, height[2], height[3]), highest)) {
+                v = Fraction(vec2(1.0, 0.0), vec2(1.0, 0.0));
+            }
         }
         if (!patch_is_within(u) || !patch_is_within(v)) {
             continue;

@@ -132,6 +132,7 @@ def cases():
     yield case("wide_edge", "flat", wide, [2, 1, 4], [0, 0, -1], "through its slanted edge")
     yield case("dart", "flat", dart, [1.25, 1.25, 3], [0, 0, -1], "a flat patch folded over itself: two pairs of u and v, one point")
     yield case("folded", "flat", bow, [1, 0.5, 3], [0, 0, -1], "two edges cross")
+    yield case("pinch", "flat", bow, [1, 1, 3], [0, 0, -1], "where they cross, every line of one kind meets the ray")
     yield case("tip", "zero_edge", tip, [0, 0, 4], [0, 0, -1], "an edge that is a point, met")
     yield case("tip_missed", "zero_edge", tip, [0, -1e-7, 4], [0, 0, -1], "a ten-millionth beside it")
     yield case("tip_inside", "zero_edge", tip, [0.25, 1, 4], [0, 0, -1], "the rest of that patch")
@@ -145,8 +146,9 @@ def cases():
 
 def main():
     file = json.loads(FILE.read_text())
-    others = [c for c in file["cases"] if c["primitive"] != "patch"]
-    file["cases"] = others + list(cases())
+    others = [c for c in file["cases"] if c["primitive"] not in ("patch", "voxel")]
+    voxels = [c for c in file["cases"] if c["primitive"] == "voxel"]
+    file["cases"] = others + list(cases()) + voxels
     FILE.write_text(json.dumps(file, indent=1, ensure_ascii=False))
 
 

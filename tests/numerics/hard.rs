@@ -16,7 +16,7 @@ static REPORT: LazyLock<Value> = LazyLock::new(|| cases(FILE));
 fn every_top_rung_is_right_on_every_hard_case() {
     let report = &*REPORT;
     hold(report);
-    assert_eq!((&report["cases"], &report["skipped"]), (&245.into(), &0.into()));
+    assert_eq!((&report["cases"], &report["skipped"]), (&246.into(), &0.into()));
     let rungs = report["rungs"].as_array().unwrap();
     // 60 rungs: the device's triangles cannot be called directly, and the sums cannot be traced.
     assert_eq!(rungs.len(), 2 * 60 - 1 - 4);

@@ -209,13 +209,13 @@ pub fn nodes<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f32; 4]>, D::Err
     }
 }
 
-/// A direction of any length but 0.
+/// A direction, of any length but nearly 0.
 pub fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     let direction = point(from)?;
     if direction.length() > 1e-6 {
         Ok(direction)
     } else {
-        Err(D::Error::custom("a direction has a length: [0, 1, 0] is up"))
+        Err(D::Error::custom("a direction is longer than 0.000001: [0, 1, 0] is up"))
     }
 }
 

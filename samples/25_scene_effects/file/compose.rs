@@ -286,7 +286,10 @@ impl Description {
             let ring = ring.get_ref();
             let &TorusTable { center, axis, radius: major, tube: minor, .. } = ring;
             if !(THINNEST * major..=major).contains(&minor) {
-                let what = format!("a torus has a `tube` of {THINNEST} to 1 times its `radius`");
+                let low = THINNEST * major;
+                let what = format!(
+                    "a torus of radius {major} has a `tube` of {low} to {major}, not {minor}"
+                );
                 return Err(source.error(at, &what));
             }
             let material = opaque(model, materials, &ring.material, source)?;
