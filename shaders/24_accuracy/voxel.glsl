@@ -113,6 +113,11 @@ vec4 voxel_cubic(Voxel v, vec3 at, vec3 d) {
     return c;
 }
 
+// pow() of 0 is undefined.
+float voxel_cube_root(float x) {
+    return x == 0.0 ? 0.0 : sign(x) * exp2(log2(abs(x)) * (1.0 / 3.0));
+}
+
 // Cardano's formula, and Viète's for three roots. It divides by c.w.
 VoxelHits voxel_cardano(Voxel v, vec3 o, vec3 d, float tmin, float tmax) {
     VoxelHits hits = VoxelHits(0, 0.0);
@@ -134,13 +139,14 @@ VoxelHits voxel_cardano(Voxel v, vec3 o, vec3 d, float tmin, float tmax) {
     if (discriminant > 0.0) {
         precise float s = sqrt(discriminant);
         precise vec2 cubes = vec2(-q + s, -q - s);
-        vec2 parts = sign(cubes) * pow(abs(cubes), vec2(1.0 / 3.0));
+        vec2 parts = vec2(voxel_cube_root(cubes.x), voxel_cube_root(cubes.y));
         roots[0] = parts.x + parts.y - middle;
     } else {
         precise float radius = sqrt(max(-p, 0.0));
         precise float angle = acos(clamp(radius > 0.0 ? -q / (radius * radius * radius) : 1.0, -1.0, 1.0)) / 3.0;
+        // From -2π/3 to π: beyond π, Vulkan promises nothing about cos().
         for (int i = 0; i < 3; i++) {
-            roots[i] = 2.0 * radius * cos(angle - float(i) * 2.09439510) - middle;
+            roots[i] = 2.0 * radius * cos(min(angle + float(i - 1) * 2.09439510, 3.14159265)) - middle;
         }
     }
     for (int i = 0; i < 3; i++) {
