@@ -1,7 +1,8 @@
 // A ray against a bilinear patch: the surface between four corners, which two families of straight lines cover. At u, a line
 // leads from the edge q00-q10 to the edge q01-q11; at v, one leads from q00-q01 to q10-q11.
 //
-// Edges and corners belong to the patch. Two hits at one point count once in two-floats and in 64 bits, and a ray that lies in the surface misses it.
+// Edges and corners belong to the patch. Two hits at one point count once in two-floats and in 64 bits, and a ray that lies in
+// the surface misses it.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
 const uint PATCH_TEXTBOOK = 0;
@@ -94,7 +95,7 @@ float patch_area(vec2 p, vec2 q) {
 }
 
 // A root of last·x² + middle·x + first as a fraction, x.x / x.y: the one with +root if side is 1, with -root if it is -1.
-// What is added has one sign.
+// Only numbers of one sign are added.
 vec2 patch_root(float first, float middle, float last, float root, float side) {
     if (root == 0.0 && middle == 0.0) {
         return last != 0.0 ? vec2(0.0, last) : vec2(first, 0.0);
@@ -104,7 +105,7 @@ vec2 patch_root(float first, float middle, float last, float root, float side) {
     return is_sum ? vec2(sum, 2.0 * last) : vec2(2.0 * first, sum);
 }
 
-// Whether a fraction is from 0 to infinity, which is where u or v is from 0 to 1.
+// True for a fraction from 0 to infinity: there u or v is from 0 to 1.
 bool patch_is_within(vec2 x) {
     return x != vec2(0.0) && (min(x.x, x.y) >= 0.0 || max(x.x, x.y) <= 0.0);
 }

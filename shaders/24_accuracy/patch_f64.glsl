@@ -15,7 +15,7 @@ bool patch_is_within(dvec2 x) {
     return x != dvec2(0.0LF) && (min(x.x, x.y) >= 0.0LF || max(x.x, x.y) <= 0.0LF);
 }
 
-// As in two-floats: whether the line at `x`, whose ends are at `one` and `other` along the ray, has no length.
+// As in two-floats: true if the line at `x` has no length. Its ends are at `one` and `other` along the ray.
 bool patch_is_point(dvec2 x, dvec2 one, dvec2 other, double size) {
     precise double start = abs(x.y) * one.x + abs(x.x) * one.y;
     precise double end = abs(x.y) * other.x + abs(x.x) * other.y;

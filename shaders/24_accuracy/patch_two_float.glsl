@@ -59,7 +59,7 @@ vec2 patch_from(float corner, vec2 there) {
     return sum_total(sum);
 }
 
-// Whether a line of the surface that the ray meets all along has no length: its ends are as far along the ray.
+// True if a line of the surface on the ray has no length: both ends are as far along the ray.
 bool patch_is_point(vec2 end, vec2 other, float size) {
     return abs(ff_sub(end, other).x) <= 9.1e-13 * size;    // 2^-40
 }
