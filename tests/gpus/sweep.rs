@@ -8,7 +8,9 @@ pub const TINY: [&str; 4] = ["--headless", "--validate", "--size", "16x10"];
 /// Runs a chapter on a card to its end, without a message; false, and a line, where there is no such card.
 pub fn runs(card: Card, sample: &str) -> bool {
     let Some(mut command) = card.command(sample) else { return false };
-    let output = command.args(TINY).args(["--report", "-"]).output().expect("it starts");
+    // With figures the pipeline is cached for the test of budgets, which needs them.
+    let output = command.args(TINY).args(["--report", "-", "--compiler-figures"]).output();
+    let output = output.expect("it starts");
     let report = report(&format!("{sample} on {}", card.0), &output);
     let device = report["device"].as_str().expect("a name");
     assert!(card.is(device), "{sample}: {device}");

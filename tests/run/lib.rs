@@ -43,15 +43,19 @@ pub struct Run {
 pub const MISTAKES: [&str; 4] =
     ["this is a mistake of the program", "panicked at", "crashed (SIG", "gave up (SIG"];
 
+/// The variable by which llvmpipe leaves out LLVM's optimisation.
+const PASSES: &str = "GALLIVM_PERF";
+
+/// A run of more pixels, in all its frames, is faster with LLVM's optimisation.
+const MANY: u32 = 100_000;
+
 /// A command that runs the binary `name` in the project's root, like a user, without a backtrace.
 pub fn command(name: &str) -> Command {
     let mut command = Command::new(program(name));
     command.current_dir(root()).env_remove("RUST_BACKTRACE");
-    // llvmpipe compiles these shaders for longer than it executes them for a small picture or a few thousand
-    // rays: without LLVM's optimisation in a quarter of the time, to the same bits.
-    if ["24_accuracy", "25_scene_effects"].contains(&name) {
-        command.env("GALLIVM_PERF", "nopt");
-    }
+    // llvmpipe compiles the shaders of a small picture for longer than it executes them: without LLVM's
+    // optimisation in a quarter of the time, to the same bits.
+    command.env(PASSES, "nopt");
     command
 }
 
@@ -138,6 +142,9 @@ pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
     let name = sample.get_program().to_string_lossy().into_owned();
+    if pixels(size, arguments) > MANY {
+        sample.env_remove(PASSES);
+    }
     let validate = validated::is_new(sample, arguments).then_some("--validate");
     let output = sample
         .args(["--headless", "--report", "-", "--size", size, "--out"])
@@ -152,6 +159,17 @@ pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
     assert_eq!(report["validation_messages"], serde_json::json!([]));
     Run { picture: Picture::open_exr(&out).expect("the picture is an EXR"), report }
+}
+
+/// The pixels of a run's frames; of a size or a number that is wrong, 0.
+fn pixels(size: &str, arguments: &[&str]) -> u32 {
+    let frames = arguments.iter().position(|argument| *argument == "--frames");
+    let frames = frames.map_or(Some(1), |at| arguments.get(at + 1)?.parse().ok());
+    let sides = size.split_once('x').and_then(|(width, height)| {
+        Some((width.parse::<u32>().ok()?, height.parse::<u32>().ok()?))
+    });
+    let (width, height) = sides.unwrap_or_default();
+    width.saturating_mul(height).saturating_mul(frames.unwrap_or_default())
 }
 
 /// The results of a shader of the book, one per pixel: the text `declarations` comes before the files of

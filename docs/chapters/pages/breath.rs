@@ -6,7 +6,8 @@ use manuscript::project::Project;
 
 use crate::values::binding::stripped;
 
-/// The largest number of words on a chapter's page, without exercises and sources: ten minutes' reading.
+/// The largest number of words on a chapter's page, without captions, exercises and sources: ten minutes'
+/// reading. Captions are read while looking at their pictures.
 const MOST: usize = 2000;
 
 /// The largest number of words in a section without a drawing, a snippet or a table.
@@ -18,7 +19,7 @@ const APART: [&str; 3] = ["## Controls", "## Try it", "## Sources"];
 /// The length of a page.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Breath {
-    /// Its words, including captions and comments in snippets, without tables and code.
+    /// Its words, including comments in snippets, without captions, tables and code.
     pub words: usize,
     /// Its tables.
     pub tables: usize,
@@ -61,9 +62,14 @@ impl Breath {
                 apart = APART.contains(&text) || (apart && line.starts_with("### "));
                 continue;
             }
+            let is_caption = fence.is_none()
+                && text.len() > 1
+                && !text.starts_with("**")
+                && text.starts_with('*')
+                && text.ends_with('*');
             section.2 |= is_row || fence.is_none() && text.contains("![");
             let counted = match fence {
-                _ if apart || is_row => 0,
+                _ if apart || is_row || is_caption => 0,
                 Some(true) => text.split_once("//").map_or(0, |(_, comment)| words(comment)),
                 Some(false) => 0,
                 None => words(text),
@@ -134,10 +140,10 @@ mod tests {
 
     #[test]
     fn what_is_read_is_counted() {
-        let text = "# Title\n\none [two](a/b.md) – three.\n![four five](x.png)\n\n## A\n\nsix seven\n\
+        let text = "# Title\n\none [two](a/b.md) – three.\n![four five](x.png)\n\n*No words: a caption.*\n\n## A\n\nsix seven\n\
                     \n| no | word |\n|---|---|\n\n## B\n\n```glsl\nfloat x; // eight nine\n```\n\n\
                     ```sh\n# none\n```\n\n## C\nten\n<!-- no words -->\n## Sources\nno words\n";
         let found = Breath::of(&Page::parse("p.md", text));
-        assert_eq!(found, Breath { words: 10, tables: 1, longest: (23, 1) });
+        assert_eq!(found, Breath { words: 10, tables: 1, longest: (25, 1) });
     }
 }
