@@ -103,8 +103,9 @@ pub fn program(name: &str) -> PathBuf {
 /// Only `cargo build` writes Cargo's own list of sources next to a program.
 fn is_current(program: &Path, name: &str) -> bool {
     let modified = |path: &Path| std::fs::metadata(path).and_then(|file| file.modified()).ok();
-    let own = root().join("samples").join(name);
-    let own = if own.is_dir() { own } else { root().join("docs") };
+    let of = |folder: &str| root().join(folder).join(name);
+    let mut own = ["samples", "samples/assets"].into_iter().map(of).filter(|own| own.is_dir());
+    let own = own.next().unwrap_or_else(|| root().join("docs"));
     let mut sources = vec![root().join("Cargo.lock")];
     let mut folders = vec![root().join("common"), own];
     while let Some(folder) = folders.pop() {
