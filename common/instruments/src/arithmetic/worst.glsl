@@ -644,6 +644,14 @@ WORST_EACH_2(dvec, dvec, worst_sub)
 WORST_EACH_2(dvec, dvec, worst_mul)
 WORST_EACH_2(dvec, dvec, worst_div)
 WORST_EACH_1(dvec, dvec, worst_abs)
+WORST_EACH_2(dvec, dvec, worst_min)
+WORST_EACH_2(dvec, dvec, worst_max)
+WORST_EACH_2(bvec, dvec, worst_less)
+WORST_EACH_2(bvec, dvec, worst_less_equal)
+WORST_EACH_2(bvec, dvec, worst_greater)
+WORST_EACH_2(bvec, dvec, worst_greater_equal)
+WORST_EACH_2(bvec, dvec, worst_equal)
+WORST_EACH_2(bvec, dvec, worst_not_equal)
 dvec3 worst_mul(const dvec3 a, const double b, const uint how) { return worst_mul(a, dvec3(b), how); }
 double worst_dot(const dvec3 a, const dvec3 b, const uint how) {
     dvec3 products = worst_mul(a, b, how);
