@@ -141,7 +141,9 @@ mod tests {
         let cube = surface(&[([3, 0, 0], 1.0), ([0, 1, 0], -1.0)]);
         assert_eq!(hits(&cube, [-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), [1.0], "three roots at once");
         assert_eq!(hits(&cube, [-3.0, -1.0, 0.0], [1.0, 0.0, 0.0]), [2.0]);
-        assert_eq!(hits(&cube, [-4.0, -8.0, 0.0], [1.0, 0.0, 0.0]), [2.0], "in a face of the box");
+        let wall = surface(&[([1, 0, 0], 1.0), ([0, 0, 0], -2.0)]);
+        assert_eq!(hits(&wall, [-4.0, 0.0, 0.0], [1.0, 0.0, 0.0]), [6.0], "in a face of the box");
+        assert_eq!(hits(&wall, [4.0, 0.0, 0.0], [-1.0, 0.0, 0.0]), [2.0], "and from outside");
         assert!(hits(&cube, [-4.0, -8.5, 0.0], [1.0, 0.0, 0.0]).is_empty(), "beyond the box");
     }
 

@@ -96,6 +96,7 @@ impl Voxel {
 #[cfg(test)]
 mod tests {
     use super::super::random::{Random, f32s, towards};
+    use super::super::rational::to_f64;
     use super::*;
 
     fn unit(corners: [f64; 8]) -> Voxel {
