@@ -213,7 +213,11 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
     };
     let counts = matches!(
         primitive,
-        Primitive::Cone | Primitive::Quadric | Primitive::Patch | Primitive::Voxel
+        Primitive::Cone
+            | Primitive::Quadric
+            | Primitive::Patch
+            | Primitive::Voxel
+            | Primitive::Algebraic
     );
     ensure!(
         !foreign && (counts || raw.count.is_none()),

@@ -1,5 +1,6 @@
 //! Seeded random rays by the thousand, each family hard in its own way, with the true answers.
 
+mod algebraic;
 mod curved;
 mod departures;
 mod flat;
@@ -67,6 +68,7 @@ impl Family {
             Primitive::Quadric => curved::quadrics(draw),
             Primitive::Patch => ruled::patches(draw),
             Primitive::Voxel => grid::voxels(draw),
+            Primitive::Algebraic => algebraic::surfaces(draw),
         }
     }
 

@@ -19,10 +19,11 @@ pub enum Primitive {
     Quadric,
     Patch,
     Voxel,
+    Algebraic,
 }
 
 impl Primitive {
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Sphere,
         Self::Box,
         Self::Plane,
@@ -36,6 +37,7 @@ impl Primitive {
         Self::Quadric,
         Self::Patch,
         Self::Voxel,
+        Self::Algebraic,
     ];
 
     pub fn name(self) -> &'static str {
@@ -53,6 +55,7 @@ impl Primitive {
             Self::Quadric => "quadric",
             Self::Patch => "patch",
             Self::Voxel => "voxel",
+            Self::Algebraic => "algebraic",
         }
     }
 
@@ -76,6 +79,7 @@ impl Primitive {
             Self::Quadric => &QUADRIC,
             Self::Patch => &PATCH,
             Self::Voxel => &VOXEL,
+            Self::Algebraic => &ALGEBRAIC,
         }
     }
 }
@@ -250,4 +254,12 @@ static VOXEL: [Rung; 5] = [
     rung("V2", "bracketed", 2),
     top(exact("V3", "two-float", 3)),
     float64("V4", 4),
+];
+
+static ALGEBRAIC: [Rung; 5] = [
+    rung("F0", "Ferrari", 0),
+    rung("F1", "polished", 1),
+    rung("F2", "bracketed", 2),
+    top(exact("F3", "two-float", 3)),
+    float64("F4", 4),
 ];

@@ -1,6 +1,7 @@
 //! Shapes that a ray may be tested against: their numbers as shaders read them, and the boxes around them.
 
 use glam::{DMat3, DVec3, Vec3};
+use reference::algebraic::exponents;
 
 use crate::ladder::Primitive;
 
@@ -43,6 +44,7 @@ pub enum Shape {
     /// Corners of a bilinear patch at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1).
     Patch([Vec3; 4]),
     Voxel(Voxel),
+    Algebraic(Algebraic),
 }
 
 /// A box with a distance at each corner, x changing fastest; the surface is where their trilinear mean is 0.
@@ -51,6 +53,39 @@ pub struct Voxel {
     pub low: Vec3,
     pub high: Vec3,
     pub corners: [f32; 8],
+}
+
+/// The points of a closed box where a polynomial of degree four in x, y and z is 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Algebraic {
+    pub low: Vec3,
+    pub high: Vec3,
+    /// In POV-Ray's order: powers of x fall first, then those of y, then those of z.
+    pub coefficients: [f32; 35],
+}
+
+impl Algebraic {
+    /// From the 20 coefficients of a cubic, or the 35 of a quartic; `None` for another number of them.
+    pub fn from_list(low: Vec3, high: Vec3, given: &[f32]) -> Option<Self> {
+        let is_cubic = given.len() == 20;
+        let is_given = |powers: &[u32; 3]| !is_cubic || powers.iter().sum::<u32>() < 4;
+        let mut coefficients = [0.0; 35];
+        let places = coefficients.iter_mut().zip(exponents()).filter(|(_, p)| is_given(p));
+        for ((to, _), from) in places.zip(given) {
+            *to = *from;
+        }
+        [20, 35].contains(&given.len()).then_some(Self { low, high, coefficients })
+    }
+
+    /// From terms: the exponents of x, y and z, and the coefficient.
+    pub fn from_terms(half: f32, terms: &[([u32; 3], f32)]) -> Self {
+        let mut coefficients = [0.0; 35];
+        for (to, powers) in coefficients.iter_mut().zip(exponents()) {
+            let own = terms.iter().filter(|(of, _)| *of == powers);
+            *to = own.map(|(_, coefficient)| coefficient).sum();
+        }
+        Self { low: Vec3::splat(-half), high: Vec3::splat(half), coefficients }
+    }
 }
 
 /// A cone between two discs: a cylinder if their radii agree.
@@ -131,6 +166,7 @@ impl Shape {
             Self::Quadric(_) => Primitive::Quadric,
             Self::Patch(_) => Primitive::Patch,
             Self::Voxel(_) => Primitive::Voxel,
+            Self::Algebraic(_) => Primitive::Algebraic,
         }
     }
 
@@ -216,6 +252,11 @@ impl Shape {
                 add(&high.to_array());
                 add(corners);
             }
+            Self::Algebraic(Algebraic { low, high, coefficients }) => {
+                add(&low.to_array());
+                add(&high.to_array());
+                add(coefficients);
+            }
         }
         numbers
     }
@@ -228,9 +269,9 @@ impl Shape {
                 let (center, radius) = (center.as_dvec3(), DVec3::splat((*radius).into()));
                 (center - radius, center + radius)
             }
-            Self::Box { low, high } | Self::Voxel(Voxel { low, high, .. }) => {
-                (low.as_dvec3(), high.as_dvec3())
-            }
+            Self::Box { low, high }
+            | Self::Voxel(Voxel { low, high, .. })
+            | Self::Algebraic(Algebraic { low, high, .. }) => (low.as_dvec3(), high.as_dvec3()),
             Self::Plane { .. } | Self::PointPlane { .. } | Self::Sum(_) | Self::Quadric(_) => {
                 (-far, far)
             }

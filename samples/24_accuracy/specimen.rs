@@ -4,10 +4,10 @@ use common::scene::Camera;
 use glam::{DVec3, Vec3};
 
 use crate::ladder::Primitive;
-use crate::shape::{Cone, Heightfield, Leaving, Shape, Voxel};
+use crate::shape::{Algebraic, Cone, Heightfield, Leaving, Shape, Voxel};
 
 /// Primitives that can be looked at; a sum cannot.
-pub const PRIMITIVES: [Primitive; 12] = [
+pub const PRIMITIVES: [Primitive; 13] = [
     Primitive::Sphere,
     Primitive::Box,
     Primitive::Plane,
@@ -20,6 +20,7 @@ pub const PRIMITIVES: [Primitive; 12] = [
     Primitive::Quadric,
     Primitive::Patch,
     Primitive::Voxel,
+    Primitive::Algebraic,
 ];
 
 /// Towards the sun.
@@ -91,6 +92,7 @@ impl Specimen {
                 high: Vec3::splat(0.7),
                 corners: [0.6, -0.1, -0.2, 0.05, 0.1, -0.15, -0.3, 0.7],
             }),
+            Primitive::Algebraic => Shape::Algebraic(kummer()),
             Primitive::SecondaryOrigin => Shape::Leaving(Leaving {
                 center: Vec3::ZERO,
                 radius: 1.0,
@@ -124,6 +126,27 @@ impl Specimen {
             }
         }
     }
+}
+
+/// A Kummer surface within a box. Its sixteen nodes, where it is pointed like a cone, are (1, 1, 1), the permutations of
+/// (1/2, 1/2, 1/4), and all of these with two signs changed.
+pub fn kummer() -> Algebraic {
+    Algebraic::from_terms(
+        1.25,
+        &[
+            ([4, 0, 0], 16.0),
+            ([0, 4, 0], 16.0),
+            ([0, 0, 4], 16.0),
+            ([2, 2, 0], -20.0),
+            ([0, 2, 2], -20.0),
+            ([2, 0, 2], -20.0),
+            ([1, 1, 1], 26.0),
+            ([2, 0, 0], -5.0),
+            ([0, 2, 0], -5.0),
+            ([0, 0, 2], -5.0),
+            ([0, 0, 0], 1.0),
+        ],
+    )
 }
 
 fn octahedron() -> Vec<[Vec3; 3]> {

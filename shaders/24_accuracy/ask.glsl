@@ -40,6 +40,9 @@
 #elif PRIMITIVE == PRIMITIVE_VOXEL
 #include "ask_voxel.glsl"
 #define ASK ask_voxel
+#elif PRIMITIVE == PRIMITIVE_ALGEBRAIC
+#include "ask_algebraic.glsl"
+#define ASK ask_algebraic
 #endif
 
 #ifdef FLOAT64
@@ -67,6 +70,9 @@
 #elif PRIMITIVE == PRIMITIVE_VOXEL
 #include "ask_voxel_f64.glsl"
 #define ASK_FLOAT64 ask_voxel_f64
+#elif PRIMITIVE == PRIMITIVE_ALGEBRAIC
+#include "ask_algebraic_f64.glsl"
+#define ASK_FLOAT64 ask_algebraic_f64
 #endif
 #endif
 

@@ -16,7 +16,7 @@ struct Answer {
     float t;
     vec3 normal;
     vec3 point;     // of a secondary origin: where the next ray starts
-    uint count;     // of a cone, a quadric, a patch or a voxel: how often the ray meets it; of a heightfield: how often its height was asked
+    uint count;     // of a cone, a quadric, a patch, a voxel or an algebraic surface: how often the ray meets it; of a heightfield: how often its height was asked
 };
 
 layout(buffer_reference, scalar) readonly buffer Numbers { float at[]; };
@@ -53,6 +53,7 @@ layout(push_constant, scalar) uniform Push {
 #define PRIMITIVE_QUADRIC 10
 #define PRIMITIVE_PATCH 11
 #define PRIMITIVE_VOXEL 12
+#define PRIMITIVE_ALGEBRAIC 13
 #ifndef PRIMITIVE
 #define PRIMITIVE PRIMITIVE_SPHERE
 #endif

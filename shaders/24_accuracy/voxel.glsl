@@ -5,6 +5,8 @@
 // faces and not its high ones, so that a hit in the face between two voxels counts once. A touch counts once, and a ray along
 // which the mean is 0 has no hit. `precise`: rounding is what this is about, so no compiler may rearrange it.
 
+#include "cardano.glsl"
+
 const uint VOXEL_MARCH = 0;
 const uint VOXEL_CARDANO = 1;
 const uint VOXEL_BRACKETED = 2;
@@ -113,12 +115,7 @@ vec4 voxel_cubic(Voxel v, vec3 at, vec3 d) {
     return c;
 }
 
-// pow() of 0 is undefined.
-float voxel_cube_root(float x) {
-    return x == 0.0 ? 0.0 : sign(x) * exp2(log2(abs(x)) * (1.0 / 3.0));
-}
-
-// Cardano's formula, and Viète's for three roots. It divides by c.w.
+// It divides by c.w.
 VoxelHits voxel_cardano(Voxel v, vec3 o, vec3 d, float tmin, float tmax) {
     VoxelHits hits = VoxelHits(0, 0.0);
     VoxelSpan span;
@@ -131,25 +128,9 @@ VoxelHits voxel_cardano(Voxel v, vec3 o, vec3 d, float tmin, float tmax) {
         return hits;
     }
     precise vec3 n = c.xyz / c.w;
-    precise float middle = n.z / 3.0;
-    precise float p = n.y / 3.0 - middle * middle;
-    precise float q = middle * middle * middle - 0.5 * middle * n.y + 0.5 * n.x;
-    precise float discriminant = q * q + p * p * p;
-    float roots[3] = float[3](-1.0, -1.0, -1.0);
-    if (discriminant > 0.0) {
-        precise float s = sqrt(discriminant);
-        precise vec2 cubes = vec2(-q + s, -q - s);
-        vec2 parts = vec2(voxel_cube_root(cubes.x), voxel_cube_root(cubes.y));
-        roots[0] = parts.x + parts.y - middle;
-    } else {
-        precise float radius = sqrt(max(-p, 0.0));
-        precise float angle = acos(clamp(radius > 0.0 ? -q / (radius * radius * radius) : 1.0, -1.0, 1.0)) / 3.0;
-        // From -2π/3 to π: beyond π, Vulkan promises nothing about cos().
-        for (int i = 0; i < 3; i++) {
-            roots[i] = 2.0 * radius * cos(min(angle + float(i - 1) * 2.09439510, 3.14159265)) - middle;
-        }
-    }
-    for (int i = 0; i < 3; i++) {
+    float roots[3];
+    int count = cubic_roots(n, roots);
+    for (int i = 0; i < count; i++) {
         precise float t = span.enter + roots[i];
         if (roots[i] >= 0.0 && t < span.leave) {
             voxel_meet(hits, t, tmin, tmax);

@@ -35,7 +35,7 @@ vec2 voxel_root(vec2 c[4], vec2 low, vec2 high, int sign_at_low) {
         vec2 next = ff_add(t, vec2(change, 0.0));
         if (!ff_less(low, next) || !ff_less(next, high)) {
             next = 0.5 * ff_add(low, high);
-            change = next.x - t.x;
+            change = ff_sub(next, t).x;
         }
         t = next;
         if (abs(change) < 1e-14) {

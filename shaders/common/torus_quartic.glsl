@@ -6,6 +6,7 @@
 // unit axis, R the distance from the centre to the middle of the tube, and r the tube's radius. With the ray's
 // point p = f + x·d both sides are polynomials in x.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
+#include "quartic.glsl"
 #include "torus.glsl"
 
 // Where a line goes through the surface.
@@ -14,23 +15,6 @@ struct TorusCrossing {
     vec3 ring;       // from the centre towards the middle of the tube there: unit
     vec3 outward;    // the unit normal
 };
-
-// c[0] + c[1]·x + … + c[4]·x⁴
-struct Quartic {
-    float c[5];
-};
-
-float value(Quartic q, float x) {
-    precise float sum = q.c[4];
-    for (int i = 3; i >= 0; i--) {
-        sum = sum * x + q.c[i];
-    }
-    return sum;
-}
-
-Quartic derivative(Quartic q) {
-    return Quartic(float[5](q.c[1], 2.0 * q.c[2], 3.0 * q.c[3], 4.0 * q.c[4], 0.0));
-}
 
 // ANCHOR: line
 // The line with its origin moved to the point nearest to the centre, a unit direction, and R as the unit of length.

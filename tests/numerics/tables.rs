@@ -156,7 +156,7 @@ fn errors(ladder: &[Value]) -> Table {
 }
 
 /// Shapes whose rungs say how often a ray meets them.
-const COUNTED: [&str; 4] = ["cone", "quadric", "patch", "voxel"];
+const COUNTED: [&str; 5] = ["cone", "quadric", "patch", "voxel", "algebraic"];
 
 /// The share of right answers by family and rung: hit or miss, the number of hits, and t to 1,000 ULP.
 fn right(ladder: &[Value]) -> Table {

@@ -56,6 +56,13 @@ fn patches_and_voxels_are_timed() {
     give_times("24_accuracy/patch_times", &["--only", "patch", "--only", "voxel"]);
 }
 
+/// So have algebraic surfaces.
+#[test]
+#[ignore = "by hand: takes times, for minutes"]
+fn algebraic_surfaces_are_timed() {
+    give_times("24_accuracy/algebraic_times", &["--only", "algebraic"]);
+}
+
 fn give_times(name: &str, only: &[&str]) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");

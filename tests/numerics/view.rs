@@ -34,7 +34,7 @@ fn the_picture_is_the_golden_one_and_repeats() {
 /// A primitive, its simplest rung, and its best.
 type Ladder = (&'static str, &'static str, &'static str);
 
-const LADDERS: [Ladder; 9] = [
+const LADDERS: [Ladder; 10] = [
     ("sphere", "textbook", "two-float"),
     ("plane", "POV form", "two-float"),
     ("box", "reciprocal", "two-float"),
@@ -45,6 +45,7 @@ const LADDERS: [Ladder; 9] = [
     ("quadric", "textbook", "two-float"),
     ("patch", "textbook", "two-float"),
     ("voxel", "Cardano", "two-float"),
+    ("algebraic", "Ferrari", "two-float"),
 ];
 
 #[test]

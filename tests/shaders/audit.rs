@@ -85,7 +85,7 @@ fn compiled() -> Vec<Form> {
         let chapter = path.split('/').next().expect("a folder").to_owned();
         let mut variants: Vec<Vec<(&str, String)>> = vec![Vec::new()];
         if chapter == "24_accuracy" {
-            variants = (0..13).map(|number| vec![("PRIMITIVE", number.to_string())]).collect();
+            variants = (0..14).map(|number| vec![("PRIMITIVE", number.to_string())]).collect();
         }
         if chapter == "25_scene_effects" {
             let specialised = |effects: &[&'static str]| {

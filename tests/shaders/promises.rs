@@ -125,8 +125,8 @@ fn no_angle_is_beyond_pi() {
         "common/surface.glsl",
     ];
     assert_eq!(callers("sin"), known);
-    // Cardano's formula, the textbook's for a voxel, needs an arc cosine and keeps its angles within π.
-    let cardano = "24_accuracy/voxel.glsl";
+    // Cardano's formula needs an arc cosine and keeps its angles within π.
+    let cardano = "24_accuracy/cardano.glsl";
     assert_eq!(callers("cos"), [&known[..1], &[cardano], &known[1..]].concat());
     assert_eq!(callers("acos"), [cardano]);
     for function in ["tan", "asin", "atan"] {

@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 use serde_json::Value;
 
 use super::aabb::Aabb;
+use super::algebraic::{Algebraic, exponents};
 use super::capsule::Capsule;
 use super::cone::Cone;
 use super::heightfield::Heightfield;
@@ -142,6 +143,22 @@ fn trace(case: &Value) -> Option<Found> {
             let corners = std::array::from_fn(|i| number(&shape["corners"][i]));
             let voxel = Voxel { low: vector(&shape["lo"]), high: vector(&shape["hi"]), corners };
             let (hit, count) = (voxel.intersect(&ray), Some(voxel.hits(&ray).len()));
+            Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
+        }
+        "algebraic" => {
+            let given: Vec<f64> =
+                shape["coefficients"].as_array().unwrap().iter().map(number).collect();
+            let is_cubic = given.len() == 20;
+            let mut given = given.into_iter();
+            let mut coefficients = [0.0; 35];
+            for (to, powers) in coefficients.iter_mut().zip(exponents()) {
+                if !is_cubic || powers.iter().sum::<u32>() < 4 {
+                    *to = given.next().expect("20 or 35");
+                }
+            }
+            let (low, high) = (vector(&shape["lo"]), vector(&shape["hi"]));
+            let surface = Algebraic { low, high, coefficients };
+            let (hit, count) = (surface.intersect(&ray), Some(surface.hits(&ray).len()));
             Some(Found { exact: hit, plain: hit, faces: Vec::new(), count })
         }
         other => panic!("{other} is no primitive of this schema"),

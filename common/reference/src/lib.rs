@@ -10,6 +10,7 @@
 //! | [`cone`], [`quadric`], [`patch`] | a cone between two discs, which may be a cylinder, a surface of degree two, and a bilinear patch, exactly |
 //! | [`torus`], [`polynomial`] | the same for a torus, by Sturm's theorem for polynomials with whole coefficients |
 //! | [`voxel`] | the same for the trilinear surface in a voxel |
+//! | [`algebraic`] | the same for an algebraic surface of degree four in a box |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
@@ -32,9 +33,11 @@
 //!   the exact ones panic on it, since a rational number cannot say NaN.
 
 pub mod aabb;
+pub mod algebraic;
 pub mod bound;
 pub mod bvh;
 pub mod capsule;
+mod clipped;
 pub mod cone;
 pub mod crossing;
 mod dot2;

@@ -1,12 +1,10 @@
 //! Ray against a voxel of a distance grid: a polynomial of degree three, and its roots exactly.
 
-use std::cmp::Ordering;
-
 use dashu::rational::RBig;
 use glam::DVec3;
 
-use super::polynomial::{Dyadic, Polynomial, Sturm};
-use super::rational::{rational, to_f64};
+use super::clipped::{End, roots_within, span};
+use super::rational::rational;
 use super::ray::Ray;
 use super::surface::Surface;
 
@@ -21,12 +19,6 @@ pub struct Voxel {
     pub corners: [f64; 8],
 }
 
-/// An end of the ray's way through the box, and whether it belongs to the voxel.
-struct End {
-    t: RBig,
-    is_inside: bool,
-}
-
 impl Voxel {
     /// The t of all hits within the ray's interval, in order, to f64. A touch counts once; a ray along which the mean is 0
     /// everywhere has none.
@@ -34,43 +26,8 @@ impl Voxel {
     /// # Panics
     /// If a number is not finite (but `tmax`).
     pub fn hits(&self, ray: &Ray) -> Vec<f64> {
-        let Some([enter, leave]) = self.span(ray) else { return Vec::new() };
-        let coefficients = self.along(ray);
-        let polynomial = Polynomial::new(&coefficients);
-        if polynomial.degree().is_none() {
-            return Vec::new();
-        }
-        let end = ray.tmax.min(to_f64(&leave.t).next_up());
-        let start = ray.tmin.max(to_f64(&enter.t).next_down());
-        if start >= end {
-            return Vec::new();
-        }
-        let is_root = |t: &RBig| {
-            let value = coefficients.iter().rev().fold(RBig::ZERO, |sum, c| sum * t + c);
-            value.is_zero()
-        };
-        let sturm = Sturm::new(&polynomial);
-        let mut bits = 96;
-        let roots = loop {
-            let roots = sturm.roots(start, end, bits);
-            // Too near an end to tell the side, unless the end is a root.
-            let is_open = |end: &End| {
-                let is_near = |root: &[Dyadic; 2]| within(root, &end.t).is_eq();
-                !is_root(&end.t) && roots.iter().any(is_near)
-            };
-            if !is_open(&enter) && !is_open(&leave) {
-                break roots;
-            }
-            bits *= 2;
-        };
-        let is_inside = |root: &[Dyadic; 2]| {
-            let from_enter = within(root, &enter.t);
-            let from_leave = within(root, &leave.t);
-            (from_enter.is_gt() || from_enter.is_eq() && enter.is_inside)
-                && (from_leave.is_lt() || from_leave.is_eq() && leave.is_inside)
-        };
-        let inside = roots.into_iter().filter(is_inside);
-        inside.map(|[_, high]| to_f64(&high.rational())).collect()
+        let Some(span) = self.span(ray) else { return Vec::new() };
+        roots_within(&self.along(ray), &span, ray)
     }
 
     /// The first hit, with the normal in f64, to where the mean grows.
@@ -124,52 +81,22 @@ impl Voxel {
         sum
     }
 
-    /// The ray's way through the closed box.
+    /// The ray's way through the box.
     fn span(&self, ray: &Ray) -> Option<[End; 2]> {
-        let mut span: [Option<End>; 2] = [None, None];
-        for k in 0..3 {
-            let (o, d) = (rational(ray.origin[k]), rational(ray.direction[k]));
-            let (low, high) = (rational(self.low[k]), rational(self.high[k]));
-            if d.is_zero() {
-                if o < low || o >= high {
-                    return None;
-                }
-                continue;
-            }
-            let rises = d > RBig::ZERO;
-            let [at_low, at_high] = [low, high].map(|face| (face - &o) / &d);
-            let [first, last] = if rises { [at_low, at_high] } else { [at_high, at_low] };
-            narrow(&mut span[0], End { t: first, is_inside: rises }, Ordering::Greater);
-            narrow(&mut span[1], End { t: last, is_inside: !rises }, Ordering::Less);
+        let goes_along_high_face =
+            (0..3).any(|k| ray.direction[k] == 0.0 && ray.origin[k] == self.high[k]);
+        let mut ends = span(self.low, self.high, ray).filter(|_| !goes_along_high_face)?;
+        for end in &mut ends {
+            end.is_inside = end.are_low;
         }
-        let [Some(enter), Some(leave)] = span else { return None };
-        (enter.t <= leave.t).then_some([enter, leave])
-    }
-}
-
-/// Takes the later (or earlier) of two ends; of two at one place, both must belong to the voxel.
-fn narrow(known: &mut Option<End>, new: End, wins: Ordering) {
-    match known {
-        Some(end) if new.t == end.t => end.is_inside &= new.is_inside,
-        Some(end) if new.t.cmp(&end.t) != wins => {}
-        _ => *known = Some(new),
-    }
-}
-
-/// The comparison of a root with a number; equal if that is in the root's interval.
-fn within([low, high]: &[Dyadic; 2], t: &RBig) -> Ordering {
-    if low.rational() > *t {
-        Ordering::Greater
-    } else if high.rational() < *t {
-        Ordering::Less
-    } else {
-        Ordering::Equal
+        Some(ends)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::random::{Random, f32s, towards};
+    use super::super::rational::to_f64;
     use super::*;
 
     fn unit(corners: [f64; 8]) -> Voxel {

@@ -1,13 +1,13 @@
 //! The shape of a hard case, read from the fields of its primitive.
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use glam::Vec3;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::{number, vector};
-use crate::shape::{Cone, Gap, Heightfield, Leaving, Pattern, Shape, Sum, Voxel};
+use crate::shape::{Algebraic, Cone, Gap, Heightfield, Leaving, Pattern, Shape, Sum, Voxel};
 
 /// Beyond the 2^24 at which a sum of floats stops growing; ten seconds on the software driver.
 const LONGEST_SUM: u32 = 1 << 26;
@@ -168,6 +168,25 @@ pub fn shape(primitive: &str, value: Value) -> Result<Shape> {
             }
             ensure!(corners != [0.0; 8], "all corners are 0");
             Shape::Voxel(Voxel { low, high, corners })
+        }
+        "algebraic" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                lo: [f64; 3],
+                hi: [f64; 3],
+                coefficients: Vec<f64>,
+            }
+            let raw: Raw = typed(value)?;
+            let (low, high) = (vector(raw.lo)?, vector(raw.hi)?);
+            ensure!(low.cmplt(high).all(), "lo {low} is not below hi {high}");
+            let given: Vec<f32> =
+                raw.coefficients.into_iter().map(number).collect::<Result<_>>()?;
+            let surface = Algebraic::from_list(low, high, &given)
+                .with_context(|| format!("{} coefficients, not 20 or 35", given.len()))?;
+            let [of_x_to_z @ .., _] = surface.coefficients;
+            ensure!(of_x_to_z != [0.0; 34], "x, y and z have no coefficient but 0");
+            Shape::Algebraic(surface)
         }
         other => bail!("unknown primitive '{other}'"),
     })

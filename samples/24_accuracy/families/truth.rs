@@ -7,7 +7,7 @@ use reference::{
     scene, sphere, transform,
 };
 
-use super::grid;
+use super::{algebraic, grid};
 use crate::judge::{Expected, ExpectedHit};
 use crate::query::Ray;
 use crate::shape::{Cone, Heightfield, Leaving, Pattern, Shape, Sum, parts};
@@ -80,6 +80,7 @@ impl<'a> Truth<'a> {
             Shape::Quadric(numbers) => first(quadric::Quadric(numbers.map(f64::from)).hits(&exact)),
             Shape::Patch(corners) => first(patch::Patch(corners.map(Vec3::as_dvec3)).hits(&exact)),
             Shape::Voxel(voxel) => first(grid::exact(voxel).hits(&exact)),
+            Shape::Algebraic(surface) => first(algebraic::exact(surface).hits(&exact)),
         };
         let hit = if t.is_some() { ExpectedHit::Yes } else { ExpectedHit::No };
         Expected { hit, t, normal: None, faces: Vec::new(), surface: None, count }

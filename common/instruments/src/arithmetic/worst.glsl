@@ -644,6 +644,15 @@ WORST_EACH_2(dvec, dvec, worst_sub)
 WORST_EACH_2(dvec, dvec, worst_mul)
 WORST_EACH_2(dvec, dvec, worst_div)
 WORST_EACH_1(dvec, dvec, worst_abs)
+WORST_EACH_2(dvec, dvec, worst_min)
+WORST_EACH_2(dvec, dvec, worst_max)
+WORST_EACH_2(bvec, dvec, worst_less)
+WORST_EACH_2(bvec, dvec, worst_less_equal)
+WORST_EACH_2(bvec, dvec, worst_greater)
+WORST_EACH_2(bvec, dvec, worst_greater_equal)
+WORST_EACH_2(bvec, dvec, worst_equal)
+WORST_EACH_2(bvec, dvec, worst_not_equal)
+dvec2 worst_mul(const dvec2 a, const double b, const uint how) { return worst_mul(a, dvec2(b), how); }
 dvec3 worst_mul(const dvec3 a, const double b, const uint how) { return worst_mul(a, dvec3(b), how); }
 double worst_dot(const dvec3 a, const dvec3 b, const uint how) {
     dvec3 products = worst_mul(a, b, how);
@@ -655,10 +664,16 @@ dvec3 worst_cross(const dvec3 a, const dvec3 b, const uint how) {
 double worst_sum(const double a, const double b, const double c, const uint how) {
     return worst_add(worst_add(a, b, how), c, how);
 }
+dvec2 worst_sum(const dvec2 a, const dvec2 b, const dvec2 c, const uint how) {
+    return worst_add(worst_add(a, b, how), c, how);
+}
 dvec3 worst_sum(const dvec3 a, const dvec3 b, const dvec3 c, const uint how) {
     return worst_add(worst_add(a, b, how), c, how);
 }
 double worst_contracted(const double a, const double b, const double c, const uint how) {
+    return worst_add(worst_mul(a, b, how), c, how);
+}
+dvec2 worst_contracted(const dvec2 a, const dvec2 b, const dvec2 c, const uint how) {
     return worst_add(worst_mul(a, b, how), c, how);
 }
 dvec3 worst_contracted(const dvec3 a, const dvec3 b, const dvec3 c, const uint how) {
