@@ -164,10 +164,11 @@ impl Sample for Demo {
         let extent = frame.image.extent;
         let size = UVec2::new(extent.width, extent.height);
         if self.pixels.size != size {
-            self.pixels = Pixels::new(frame.gpu, size)?;
+            // A frame of another size may have been abandoned since the last complete one.
+            (self.pixels, self.done) = (Pixels::new(frame.gpu, size)?, None);
         }
         let number = self.playback.frame;
-        let camera = self.motion.camera(&self.camera, number).basis(frame.aspect());
+        let camera = self.motion.camera(&self.camera, number);
         if frame.is_first_band() {
             let home = self.levels.home(&self.source);
             self.levels.place(frame.cmd, self.motion.piece(&home, self.levels.way, number))?;
@@ -179,12 +180,12 @@ impl Sample for Demo {
             self.pipelines.choose(frame, &self.levels.scene.textures, self.constants, pipeline)?;
         // In a window, the pipeline may still be that of the old controls.
         let valid = Valid { constants: *key, ..wanted };
-        let last = self.done.as_ref().filter(|done| done.goes_on_to(&valid, number));
+        let last = self.done.as_ref().filter(|done| done.goes_on_to(&valid, &camera, number));
         let age = last.map_or(0, |done| done.age + 1);
         // ANCHOR: trace
         let light = Light::directional(&self.motion.sun(&self.sun, number));
         let push = Push {
-            camera,
+            camera: camera.basis(frame.aspect()),
             scene: self.levels.scene.addresses,
             pixels: self.pixels.addresses(),
             light: DiskLight { light, radius: self.light_size, samples: 1 },
@@ -206,22 +207,26 @@ impl Sample for Demo {
 
     fn pass(&mut self, frame: &Frame, number: u32) -> Result<()> {
         let Some(now) = &self.next else { return Ok(()) };
-        let last = self.done.as_ref().filter(|done| done.goes_on_to(&now.valid, now.frame));
+        let last =
+            self.done.as_ref().filter(|done| done.goes_on_to(&now.valid, &now.camera, now.frame));
         if let (0, Some(last)) = (number, last) {
             self.back.update(frame.cmd, &[Back::new(&now.piece, &last.piece)])?;
         }
         let given = Given {
             levels: &self.levels,
             pixels: &self.pixels,
-            camera: now.camera,
-            before: last.map_or(now.camera, |last| last.camera),
+            camera: now.camera.basis(frame.aspect()),
+            before: last.map_or(now.camera, |last| last.camera).basis(frame.aspect()),
             back: self.back.address.into(),
             tests: self.tests,
             memory: if last.is_some() && self.history { self.memory } else { 1 },
             white: self.memory,
             filters: self.filters,
         };
-        self.passes.record(frame, number, &given)?;
+        let used = self.passes.record(frame, number, &given)?;
+        if let (0, Some(now)) = (number, &mut self.next) {
+            now.valid.tests = used;
+        }
         if number + 1 == passes::count(self.filters) {
             self.pixels.swap();
             self.done = self.next.take();

@@ -116,11 +116,12 @@ pub fn names(filters: u32) -> Vec<&'static str> {
 }
 
 impl Passes {
-    /// Records a pass: the history, the variance, so many of the filter, and the composition.
+    /// Records a pass: the history, the variance, so many of the filter, and the composition. Returns the tests of the
+    /// history: in a window, these may be those of the old controls.
     ///
     /// # Errors
     /// If its pipeline cannot be built.
-    pub fn record(&mut self, frame: &Frame, number: u32, given: &Given) -> Result<()> {
+    pub fn record(&mut self, frame: &Frame, number: u32, given: &Given) -> Result<Tests> {
         let scene = &given.levels.scene;
         let (textures, pixels) = (&scene.textures, given.pixels.addresses());
         let apart = 2.0 * given.camera.right.length() / given.pixels.size.x as f32;
@@ -129,6 +130,7 @@ impl Passes {
         let for_filter = given.pixels.for_filter();
         let between = |number: u32| for_filter[number as usize % 2];
         let picture = [Descriptor::StorageImage(frame.image)];
+        let mut used = given.tests;
         // ANCHOR: passes
         // This pass reads the results of the one before.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
@@ -141,8 +143,9 @@ impl Passes {
                 memory: given.memory,
                 rounding: given.levels.rounding,
             };
-            let Variant { pipeline, .. } =
+            let Variant { pipeline, key, .. } =
                 self.history.choose(frame, textures, given.tests, history_pass)?;
+            used = *key;
             pipeline.bind(frame.cmd, &picture, &history)?;
             pipeline.dispatch(frame.cmd, frame.area);
         } else if number == 1 {
@@ -172,7 +175,7 @@ impl Passes {
             pipeline.dispatch(frame.cmd, frame.area);
         }
         // ANCHOR_END: passes
-        Ok(())
+        Ok(used)
     }
 }
 
