@@ -31,7 +31,8 @@ pub struct Valid {
 pub struct Done {
     pub valid: Valid,
     pub camera: Camera,
-    pub piece: Affine3A,
+    /// The transforms of all instances.
+    pub places: Vec<Affine3A>,
     /// Its number in the animation.
     pub frame: u32,
     /// Number of frames since the history began.

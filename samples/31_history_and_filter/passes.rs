@@ -33,7 +33,6 @@ common::shader_struct! {
         camera: CameraBasis,
         pixels: Address<PixelAddresses>,
         back: Address<Back>,
-        moving: u32,
         memory: u32,
         rounding: f32,
     }
@@ -85,7 +84,6 @@ pub struct Given<'a> {
     pub camera: CameraBasis,
     /// The camera of the last frame.
     pub before: CameraBasis,
-    pub back: Address<Back>,
     pub tests: Tests,
     /// The longest history, in frames; 1 for none.
     pub memory: u32,
@@ -138,8 +136,7 @@ impl Passes {
             let history = History {
                 camera: given.before,
                 pixels,
-                back: given.back,
-                moving: given.levels.moving as u32,
+                back: given.levels.back.address.into(),
                 memory: given.memory,
                 rounding: given.levels.rounding,
             };
