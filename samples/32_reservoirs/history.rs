@@ -48,7 +48,7 @@ pub struct Done {
 }
 
 impl Done {
-    /// Tests whether a frame may use this one's reservoirs: neither its settings differ, nor has the camera jumped.
+    /// Tests whether a frame may use this one's reservoirs: it has the same settings, and its camera has not jumped.
     pub fn goes_on_to(&self, valid: &Valid, camera: &Camera) -> bool {
         self.valid == *valid && !camera.is_cut_from(&self.camera)
     }
