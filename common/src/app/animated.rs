@@ -90,7 +90,7 @@ impl Animated {
             // Its frames differ: they converge, or move by the frame's number.
             None if converges => {}
             None => {
-                let what = "--animate is for chapters that play frames, such as 14_animation";
+                let what = "--animate is for chapters that play frames, as 14 does, or converge, as 11 does";
                 let line = format!("{} shows nothing that moves: {what}", run.name);
                 return Err(UsageError(line).into());
             }
