@@ -1,6 +1,6 @@
 //! The last frame, and whether its light may be used again.
 
-use common::scene::{CameraBasis, Sun};
+use common::scene::{Camera, Sun};
 use glam::{Affine3A, UVec2};
 
 use super::Constants;
@@ -30,8 +30,9 @@ pub struct Valid {
 /// A frame, as far as the next one needs to know it.
 pub struct Done {
     pub valid: Valid,
-    pub camera: CameraBasis,
-    pub piece: Affine3A,
+    pub camera: Camera,
+    /// The transforms of all instances.
+    pub places: Vec<Affine3A>,
     /// Its number in the animation.
     pub frame: u32,
     /// Number of frames since the history began.
@@ -39,8 +40,11 @@ pub struct Done {
 }
 
 impl Done {
-    /// Tests whether the next frame may use what this one knows: nothing but camera and time has changed.
-    pub fn goes_on_to(&self, valid: &Valid, frame: u32) -> bool {
-        self.valid == *valid && frame.wrapping_sub(self.frame) <= MAX_STEP
+    /// Tests whether the next frame may use what this one knows: nothing but camera and time has changed, and neither
+    /// has jumped.
+    pub fn goes_on_to(&self, valid: &Valid, camera: &Camera, frame: u32) -> bool {
+        self.valid == *valid
+            && !camera.is_cut_from(&self.camera)
+            && frame.wrapping_sub(self.frame) <= MAX_STEP
     }
 }

@@ -1,4 +1,4 @@
-//! The top level of a scene with one moving instance.
+//! The top level of a scene with moving instances.
 
 use anyhow::Result;
 use ash::vk;
@@ -9,21 +9,20 @@ use common::scene::{
 };
 use glam::Affine3A;
 
-use super::moving::{moving, way};
+use super::moving::{Back, Motion, moving, way};
+use super::scenes::Game;
 
 /// A pixel has 16 bits for its instance, and one number is the sky's.
 const MOST: usize = 0xffff;
 
-/// A scene on the device, and a top level that follows its moving instance.
+/// A scene on the device, and a top level that follows its moving instances.
 pub struct Levels {
     /// Everything but the top level.
     pub scene: SceneOnGpu,
     /// The top level.
     pub tlas: AccelerationStructure,
-    /// The index of the moving instance.
-    pub moving: usize,
-    /// The length of its way.
-    pub way: f64,
+    /// The motion of each instance since the last frame.
+    pub back: Buffer,
     /// A bound on the error of a distance between two computed points of the scene.
     pub rounding: f32,
     host: Scene,
@@ -31,7 +30,12 @@ pub struct Levels {
     order: Vec<u32>,
     instances: Buffer,
     scratch: Buffer,
-    placed: Affine3A,
+    /// The transform of each instance at first, and now.
+    homes: Vec<Affine3A>,
+    placed: Vec<Affine3A>,
+    /// The index of the instance that moves where no game is played, and the length of its way.
+    moving: usize,
+    way: f64,
 }
 
 impl Levels {
@@ -70,37 +74,59 @@ impl Levels {
         let count = order.len() as u32;
         let tlas = AccelerationStructure::top(gpu, "top level", &instances, count, options)?;
         let scratch = tlas.scratch()?;
-        let moving = moving(&host);
-        let placed = host.instances[moving].transform;
-        let way = way(&host);
-        let rounding = rounding(&host);
-        Ok(Self { scene, tlas, moving, way, rounding, host, order, instances, scratch, placed })
+        let back = Buffer::new(gpu, "back", u64::from(count) * size_of::<Back>() as u64, usage)?;
+        let homes: Vec<_> = host.instances.iter().map(|instance| instance.transform).collect();
+        let (moving, way, rounding) = (moving(&host), way(&host), rounding(&host));
+        Ok(Self {
+            scene,
+            tlas,
+            back,
+            rounding,
+            host,
+            order,
+            instances,
+            scratch,
+            placed: homes.clone(),
+            homes,
+            moving,
+            way,
+        })
     }
 
-    /// The transform of the moving instance now.
-    pub fn placed(&self) -> &Affine3A {
-        &self.placed
+    /// The transforms of all instances at a frame.
+    pub fn places(&self, motion: Motion, game: Option<&Game>, frame: u32) -> Vec<Affine3A> {
+        let mut places = self.homes.clone();
+        match game {
+            Some(game) if motion.moves_pieces() => {
+                let first = places.len() - game.legs.pieces.len();
+                let pieces = places[first..].iter_mut().zip(game.legs.at(frame));
+                pieces.for_each(|(place, piece)| *place = piece.at);
+            }
+            Some(_) => {}
+            None => {
+                let place = &mut places[self.moving];
+                *place = motion.piece(place, self.way, frame);
+            }
+        }
+        places
     }
 
-    /// Where the moving instance starts.
-    pub fn home(&self, source: &Scene) -> Affine3A {
-        source.instances[self.moving].transform
-    }
-
-    /// Records a move of the moving instance.
+    /// Records a move of the instances.
     ///
     /// # Errors
     /// If the update cannot be recorded.
-    pub fn place(&mut self, cmd: vk::CommandBuffer, to: Affine3A) -> Result<()> {
+    pub fn place(&mut self, cmd: vk::CommandBuffer, to: &[Affine3A]) -> Result<()> {
         if self.placed == to {
             return Ok(());
         }
-        self.host.instances[self.moving].transform = to;
+        for (instance, to) in self.host.instances.iter_mut().zip(to) {
+            instance.transform = *to;
+        }
         self.instances.update(cmd, &instances(&self.host, &self.scene, &self.order))?;
         let count = self.order.len() as u32;
         let input = [Geometry::Instances { instances: self.instances.address, count }];
         self.tlas.update(cmd, &input, &self.scratch)?;
-        self.placed = to;
+        self.placed = to.to_vec();
         Ok(())
     }
 }

@@ -4,23 +4,28 @@
 //! a filter that makes and loses none of it, in `filter.comp`; and motion, a function of the frame's number.
 
 mod done;
+#[path = "../14_animation/leg.rs"]
+mod leg;
+#[path = "../14_animation/legs.rs"]
+mod legs;
 mod levels;
+#[path = "../14_animation/motion.rs"]
+mod motion;
 mod moving;
 mod passes;
 mod pixels;
 mod scenes;
+#[path = "../14_animation/turned.rs"]
+mod turned;
 
 use std::process::ExitCode;
 
 use anyhow::Result;
-use ash::vk;
 use common::gpu::{
-    Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    TextureTable, barrier,
+    Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
+    barrier,
 };
-use common::scene::{
-    Camera, CameraBasis, DiskLight, Light, Look, Scene, SceneAddresses, Sun, input_usage,
-};
+use common::scene::{Camera, CameraBasis, DiskLight, Light, Look, Scene, SceneAddresses, Sun};
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use done::{Done, Valid};
 use glam::UVec2;
@@ -28,7 +33,7 @@ use levels::Levels;
 use moving::{Back, Motion};
 use passes::{Given, Passes, Show, Tests};
 use pixels::{PixelAddresses, Pixels};
-use scenes::{SceneName, Sky, Staged};
+use scenes::{Game, SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
@@ -39,16 +44,17 @@ fn main() -> ExitCode {
 const MAX_DEPTH: u32 = 256;
 /// A pixel has 8 bits for the length of its history.
 const MAX_MEMORY: u32 = 255;
-/// The last frame of the motion.
-const LAST: u32 = 1439;
+/// The last frame of the motion, and of the game.
+const LAST: u32 = 1824;
 
 struct Demo {
     source: Scene,
+    /// None if a file replaces the chess set.
+    game: Option<Game>,
     levels: Levels,
     pixels: Pixels,
     pipelines: Variants<Constants>,
     passes: Passes,
-    back: Buffer,
     /// The last complete frame, and the one whose rays are traced.
     done: Option<Done>,
     next: Option<Done>,
@@ -97,18 +103,18 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let source = setup.scene_with(&[Look::Mirror], scenes::chess)?;
-        let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source);
+        let game = setup.scene().is_none().then(|| Game::new(&source)).transpose()?;
+        let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source, None);
         let camera = scene.camera;
-        let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let tests =
             Tests { show: Show::Picture, follow: true, instance: true, plane: true, normal: true };
         Ok(Self {
             levels: Levels::new(gpu, scene, setup.options)?,
             source,
+            game,
             pixels: Pixels::new(gpu, UVec2::ZERO)?,
             pipelines: Variants::default(),
             passes: Passes::default(),
-            back: Buffer::new(gpu, "back", size_of::<Back>() as u64, usage)?,
             done: None,
             next: None,
             playback: Playback::new(LAST),
@@ -154,7 +160,8 @@ impl Sample for Demo {
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.name != self.built {
-            self.levels.rebuild(gpu, Staged::new(self.name, &self.source).scene)?;
+            let staged = Staged::new(self.name, &self.source, self.game.as_ref());
+            self.levels.rebuild(gpu, staged.scene)?;
             self.built = self.name;
         }
         Ok(())
@@ -164,13 +171,15 @@ impl Sample for Demo {
         let extent = frame.image.extent;
         let size = UVec2::new(extent.width, extent.height);
         if self.pixels.size != size {
-            self.pixels = Pixels::new(frame.gpu, size)?;
+            // A frame of another size may have been abandoned since the last complete one.
+            (self.pixels, self.done) = (Pixels::new(frame.gpu, size)?, None);
         }
         let number = self.playback.frame;
-        let camera = self.motion.camera(&self.camera, number).basis(frame.aspect());
+        let camera = self.motion.camera(&self.camera, number);
+        let game = self.game.as_ref().filter(|_| self.built == SceneName::Game);
+        let places = self.levels.places(self.motion, game, number);
         if frame.is_first_band() {
-            let home = self.levels.home(&self.source);
-            self.levels.place(frame.cmd, self.motion.piece(&home, self.levels.way, number))?;
+            self.levels.place(frame.cmd, &places)?;
         }
         // The passes of the last frame have read what this one writes.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
@@ -179,12 +188,12 @@ impl Sample for Demo {
             self.pipelines.choose(frame, &self.levels.scene.textures, self.constants, pipeline)?;
         // In a window, the pipeline may still be that of the old controls.
         let valid = Valid { constants: *key, ..wanted };
-        let last = self.done.as_ref().filter(|done| done.goes_on_to(&valid, number));
+        let last = self.done.as_ref().filter(|done| done.goes_on_to(&valid, &camera, number));
         let age = last.map_or(0, |done| done.age + 1);
         // ANCHOR: trace
         let light = Light::directional(&self.motion.sun(&self.sun, number));
         let push = Push {
-            camera,
+            camera: camera.basis(frame.aspect()),
             scene: self.levels.scene.addresses,
             pixels: self.pixels.addresses(),
             light: DiskLight { light, radius: self.light_size, samples: 1 },
@@ -196,7 +205,7 @@ impl Sample for Demo {
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
-        self.next = Some(Done { valid, camera, piece: *self.levels.placed(), frame: number, age });
+        self.next = Some(Done { valid, camera, places, frame: number, age });
         Ok(())
     }
 
@@ -206,22 +215,27 @@ impl Sample for Demo {
 
     fn pass(&mut self, frame: &Frame, number: u32) -> Result<()> {
         let Some(now) = &self.next else { return Ok(()) };
-        let last = self.done.as_ref().filter(|done| done.goes_on_to(&now.valid, now.frame));
+        let last =
+            self.done.as_ref().filter(|done| done.goes_on_to(&now.valid, &now.camera, now.frame));
         if let (0, Some(last)) = (number, last) {
-            self.back.update(frame.cmd, &[Back::new(&now.piece, &last.piece)])?;
+            let places = now.places.iter().zip(&last.places);
+            let back: Vec<_> = places.map(|(now, last)| Back::new(now, last)).collect();
+            self.levels.back.update(frame.cmd, &back)?;
         }
         let given = Given {
             levels: &self.levels,
             pixels: &self.pixels,
-            camera: now.camera,
-            before: last.map_or(now.camera, |last| last.camera),
-            back: self.back.address.into(),
+            camera: now.camera.basis(frame.aspect()),
+            before: last.map_or(now.camera, |last| last.camera).basis(frame.aspect()),
             tests: self.tests,
             memory: if last.is_some() && self.history { self.memory } else { 1 },
             white: self.memory,
             filters: self.filters,
         };
-        self.passes.record(frame, number, &given)?;
+        let used = self.passes.record(frame, number, &given)?;
+        if let (0, Some(now)) = (number, &mut self.next) {
+            now.valid.tests = used;
+        }
         if number + 1 == passes::count(self.filters) {
             self.pixels.swap();
             self.done = self.next.take();
@@ -266,7 +280,7 @@ impl Demo {
 
     /// Takes over what a scene brings: view, sun and sky.
     fn take_scene(&mut self) {
-        let Staged { scene, sun, sky } = Staged::new(self.name, &self.source);
+        let Staged { scene, sun, sky } = Staged::new(self.name, &self.source, self.game.as_ref());
         (self.camera, self.sun, self.constants.sky) = (scene.camera, sun, sky);
     }
 }

@@ -36,10 +36,15 @@ impl Motion {
         Sun { azimuth: azimuth.rem_euclid(360.0) as f32, ..*sun }
     }
 
+    /// Tests whether pieces move.
+    pub fn moves_pieces(self) -> bool {
+        matches!(self, Self::Piece | Self::All)
+    }
+
     /// The transform of the moving piece at a frame; `home` is where it starts. On its `way` along z it turns half
     /// around.
     pub fn piece(self, home: &Affine3A, way: f64, frame: u32) -> Affine3A {
-        if !matches!(self, Self::Piece | Self::All) {
+        if !self.moves_pieces() {
             return *home;
         }
         let part = part(frame);
@@ -96,9 +101,10 @@ common::shader_struct! {
 }
 
 impl Back {
-    /// From one transform to another: computed in 64 bits, and rounded once.
+    /// From one transform to another: computed in 64 bits, and rounded once. Between equal ones it changes no bit.
     pub fn new(from: &Affine3A, to: &Affine3A) -> Self {
         let back = in_32_bits(&(in_64_bits(to) * in_64_bits(from).inverse()));
+        let back = if from == to { Affine3A::IDENTITY } else { back };
         let columns = back.matrix3;
         Self {
             x: columns.x_axis.into(),

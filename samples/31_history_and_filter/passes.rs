@@ -33,7 +33,6 @@ common::shader_struct! {
         camera: CameraBasis,
         pixels: Address<PixelAddresses>,
         back: Address<Back>,
-        moving: u32,
         memory: u32,
         rounding: f32,
     }
@@ -85,7 +84,6 @@ pub struct Given<'a> {
     pub camera: CameraBasis,
     /// The camera of the last frame.
     pub before: CameraBasis,
-    pub back: Address<Back>,
     pub tests: Tests,
     /// The longest history, in frames; 1 for none.
     pub memory: u32,
@@ -116,11 +114,12 @@ pub fn names(filters: u32) -> Vec<&'static str> {
 }
 
 impl Passes {
-    /// Records a pass: the history, the variance, so many of the filter, and the composition.
+    /// Records a pass: the history, the variance, so many of the filter, and the composition. Returns the tests of the
+    /// history: in a window, these may be those of the old controls.
     ///
     /// # Errors
     /// If its pipeline cannot be built.
-    pub fn record(&mut self, frame: &Frame, number: u32, given: &Given) -> Result<()> {
+    pub fn record(&mut self, frame: &Frame, number: u32, given: &Given) -> Result<Tests> {
         let scene = &given.levels.scene;
         let (textures, pixels) = (&scene.textures, given.pixels.addresses());
         let apart = 2.0 * given.camera.right.length() / given.pixels.size.x as f32;
@@ -129,6 +128,7 @@ impl Passes {
         let for_filter = given.pixels.for_filter();
         let between = |number: u32| for_filter[number as usize % 2];
         let picture = [Descriptor::StorageImage(frame.image)];
+        let mut used = given.tests;
         // ANCHOR: passes
         // This pass reads the results of the one before.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
@@ -136,13 +136,13 @@ impl Passes {
             let history = History {
                 camera: given.before,
                 pixels,
-                back: given.back,
-                moving: given.levels.moving as u32,
+                back: given.levels.back.address.into(),
                 memory: given.memory,
                 rounding: given.levels.rounding,
             };
-            let Variant { pipeline, .. } =
+            let Variant { pipeline, key, .. } =
                 self.history.choose(frame, textures, given.tests, history_pass)?;
+            used = *key;
             pipeline.bind(frame.cmd, &picture, &history)?;
             pipeline.dispatch(frame.cmd, frame.area);
         } else if number == 1 {
@@ -172,7 +172,7 @@ impl Passes {
             pipeline.dispatch(frame.cmd, frame.area);
         }
         // ANCHOR_END: passes
-        Ok(())
+        Ok(used)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The last frame, as far as the next one needs to know it.
 
+use common::scene::Camera;
 use glam::UVec2;
 
 use super::passes::{Reuse, Weights};
@@ -37,10 +38,18 @@ impl Valid {
 pub struct Done {
     /// The settings that the next frame must share.
     pub valid: Valid,
-    /// Its push constants.
+    /// Its camera, and its push constants.
+    pub camera: Camera,
     pub push: Push,
     /// Number of frames since the history began.
     pub age: u32,
     /// True if all its pipelines belong to the same controls: in a window, one may still be the old one.
     pub is_whole: bool,
+}
+
+impl Done {
+    /// Tests whether a frame may use this one's reservoirs: it has the same settings, and its camera has not jumped.
+    pub fn goes_on_to(&self, valid: &Valid, camera: &Camera) -> bool {
+        self.valid == *valid && !camera.is_cut_from(&self.camera)
+    }
 }

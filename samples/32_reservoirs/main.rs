@@ -178,19 +178,20 @@ impl Sample for Demo {
     fn render(&mut self, frame: &Frame) -> Result<()> {
         let size = UVec2::new(frame.image.extent.width, frame.image.extent.height);
         if self.pixels.size != size {
-            self.pixels = Pixels::new(frame.gpu, size)?;
+            // A frame of another size may have been abandoned since the last complete one.
+            (self.pixels, self.done) = (Pixels::new(frame.gpu, size)?, None);
         }
         // The passes of the last frame have read what this one writes.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
-        let camera = self.turned(frame.accumulated).basis(frame.aspect());
+        let camera = self.turned(frame.accumulated);
         let valid = Valid::of(self);
-        let last = self.done.as_ref().filter(|done| done.valid == valid);
+        let last = self.done.as_ref().filter(|done| done.goes_on_to(&valid, &camera));
         let age = last.map_or(0, |done| done.age + 1);
         let in_time = self.reuse.is_in_time();
         let has_history = in_time && last.is_some();
         // ANCHOR: trace
         let push = Push {
-            camera,
+            camera: camera.basis(frame.aspect()),
             scene: self.lit.on_gpu.addresses,
             emitters: self.lit.emitters.address.into(),
             pixels: self.pixels.addresses(),
@@ -214,7 +215,7 @@ impl Sample for Demo {
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         let is_whole = *key == self.constants;
-        self.next = Some(Done { valid, push, age, is_whole });
+        self.next = Some(Done { valid, camera, push, age, is_whole });
         Ok(())
     }
 
@@ -224,7 +225,7 @@ impl Sample for Demo {
 
     fn pass(&mut self, frame: &Frame, number: u32) -> Result<()> {
         let Some(now) = &mut self.next else { return Ok(()) };
-        let last = self.done.as_ref().filter(|done| done.valid == now.valid);
+        let last = self.done.as_ref().filter(|done| done.goes_on_to(&now.valid, &now.camera));
         let push = match (number, last) {
             (0, Some(last)) => Push { camera: last.push.camera, ..now.push },
             _ => now.push,

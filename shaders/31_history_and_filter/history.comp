@@ -15,7 +15,6 @@ layout(push_constant, scalar) uniform History {
     CameraBasis camera;      // of the last frame
     PixelAddresses pixels;
     Backs back;
-    uint moving;             // the instance that moves
     uint memory;             // the longest history, in frames
     float rounding;          // a bound on the error of a distance between two points of the scene
 } push;
@@ -98,12 +97,10 @@ void main() {
         // The surface as it was in the last frame.
         Seen before = here;
         vec3 normal = unpacked(here.normal);
-        if (instance_of(here) == push.moving) {
-            Back back = push.back.at[0];
-            mat3 turn = mat3(back.x, back.y, back.z);
-            before.position = turn * here.position + back.origin;
-            normal = turn * normal;
-        }
+        Back back = push.back.at[instance_of(here)];
+        mat3 turn = mat3(back.x, back.y, back.z);
+        before.position = turn * here.position + back.origin;
+        normal = turn * normal;
         vec2 point = vec2(id) + 0.5;
         bool begins = push.memory < 2;
         if (FOLLOW && !begins && !project(push.camera, before.position, push.pixels.size, point)) {

@@ -109,6 +109,21 @@ fn frames_that_cannot_be_animated() {
 }
 
 #[test]
+fn what_cannot_be_set_on_the_way() {
+    for (then, words) in [
+        ("sun elevation=30", "it takes the number of a frame and a setting, such as \"12:sun"),
+        ("x:sun elevation=30", "it takes the number of a frame"),
+        ("4:sun elevation=30", "--then names frame 4, and the last one is 3: --frames 5 has it"),
+        ("1:sun=30", "no control 'sun'"),
+        ("1:sun elevation=300", "cannot be '300'"),
+    ] {
+        refused(&["--frames", "4", "--then", then], 2, &[words]);
+    }
+    let (code, line) = run::refused("01_foundation", &["--headless", "--then", "0:a=1"]);
+    assert!(code == 2 && line.contains("--then works from 02 on"), "{line}");
+}
+
+#[test]
 fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
     let (code, line) = run::refused("01_foundation", &["--compile-for", "navi31"]);
     assert!(code == 2 && line.contains("--compile-for works from 02 on"), "{line}");

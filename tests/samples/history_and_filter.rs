@@ -1,5 +1,6 @@
 //! 31_history_and_filter: what stays exact, where surfaces were, what lags behind, and what each part is good for.
 
+mod cuts;
 mod exact;
 mod ghosts;
 mod parts;

@@ -74,3 +74,21 @@ fn what_traces_and_prints_nothing_is_told_so() {
                    are not recorded: write PRINT(";
     assert!(code == 1 && line.contains(nothing), "{line}");
 }
+
+#[test]
+fn of_several_passes_the_first_is_told_and_the_others_are_named() {
+    for (name, passes) in [
+        ("31_history_and_filter", "(history, variance, filter, compose)"),
+        ("32_reservoirs", "(time, space)"),
+    ] {
+        let mut sample = command(name);
+        let output = sample.args(["--size", SIZE, "--pixel", "24,20"]).output().expect("it starts");
+        let text = String::from_utf8_lossy(&output.stdout);
+        let last = text.lines().last().unwrap_or_default();
+        assert!(text.contains("ray 1 · "), "{text}");
+        assert!(
+            last.contains("the rays of the first pass alone") && last.contains(passes),
+            "{text}"
+        );
+    }
+}

@@ -78,6 +78,7 @@ impl Animated {
     /// # Errors
     /// [`UsageError`] if the sample has nothing that moves.
     pub fn begin(run: &mut Run) -> Result<Self> {
+        let converges = run.sample.accumulates();
         match run.sample.playback() {
             Some(playback) if playback.playing => {}
             Some(_) => {
@@ -86,8 +87,10 @@ impl Animated {
             }
             // A program of another crate may move things by the frame's number; `save` tells if it does not.
             None if paths::folder().is_some() => {}
+            // Its frames differ: they converge, or move by the frame's number.
+            None if converges => {}
             None => {
-                let what = "--animate is for chapters that play frames, such as 14_animation";
+                let what = "--animate is for chapters that play frames, as 14 does, or converge, as 11 does";
                 let line = format!("{} shows nothing that moves: {what}", run.name);
                 return Err(UsageError(line).into());
             }

@@ -55,6 +55,11 @@ pub struct Args {
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub sets: Vec<(String, String)>,
 
+    /// With --headless: set a control just before a frame, as if it were moved in the window; repeatable. The first
+    /// frame is number 0
+    #[arg(long, value_name = "FRAME:NAME=VALUE", value_parser = later, requires = "headless")]
+    pub then: Vec<(u32, (String, String))>,
+
     /// Print the controls: name, kind, possible values, value; other options are checked, and nothing is rendered
     #[arg(long, conflicts_with = "list_devices")]
     pub list_controls: bool,
@@ -164,6 +169,15 @@ fn size(text: &str) -> Result<vk::Extent2D, String> {
 fn frames(text: &str) -> Result<u32, String> {
     let number = text.parse().ok().filter(|&number| number > 0);
     number.ok_or_else(|| format!("frames are a whole number from 1 to {}", u32::MAX))
+}
+
+fn later(text: &str) -> Result<(u32, (String, String)), String> {
+    let parts = text.split_once(':').map(|(frame, set)| (frame.trim().parse(), assignment(set)));
+    match parts {
+        Some((Ok(frame), Ok(set))) => Ok((frame, set)),
+        _ => Err("it takes the number of a frame and a setting, such as \"12:sun elevation=30\""
+            .to_owned()),
+    }
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {

@@ -6,7 +6,7 @@ use anyhow::Result;
 
 use super::animated::{self, Animated};
 use super::{Args, Program, Progress, Run, RunHooks, files};
-use crate::output;
+use crate::{UsageError, output};
 
 /// Renders the frames of a sample, and writes the last one, or all of them for an animation.
 ///
@@ -16,6 +16,7 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
     let start = Instant::now();
     files::check(args)?;
     animated::check(args)?;
+    check_later(args)?;
     let mut run = Run::new(program, args, hooks, start)?;
     if args.list_controls {
         return run.list_controls();
@@ -30,11 +31,16 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
     let frames = run.frames.clone();
     let count = frames.iter().map(|range| u64::from(range.end - range.start)).sum();
     let mut progress = Progress::new(count, if run.apart { "samples" } else { "frames" });
-    for (number, index) in frames.into_iter().flatten().enumerate() {
+    let mut begun = 0;
+    for (number, index) in (0..).zip(frames.into_iter().flatten()) {
         if let (true, Some(playback)) = (number > 0, run.sample.playback()) {
             playback.advance(1);
         }
-        run.render(index)?;
+        if run.set_before(number)? {
+            // As in a window, a moved control begins a picture.
+            begun = index;
+        }
+        run.render(index - begun)?;
         hooks.frame(&run, index)?;
         if let Some(animated) = &mut animated {
             animated.add(&args.development.of(run.picture()?))?;
@@ -60,6 +66,19 @@ pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<(
         output::warn(&[line.to_owned()]);
     }
     Ok(())
+}
+
+/// Refuses `--then` for a frame that is not rendered.
+fn check_later(args: &Args) -> Result<(), UsageError> {
+    let frames = args.frames;
+    match args.then.iter().find(|(at, _)| *at >= frames) {
+        Some((at, _)) => Err(UsageError(format!(
+            "--then names frame {at}, and the last one is {}: --frames {} has it",
+            frames - 1,
+            u64::from(*at) + 1
+        ))),
+        None => Ok(()),
+    }
 }
 
 #[cfg(test)]
@@ -124,5 +143,8 @@ mod tests {
             let built = notes(&["--set", sets[0], "--set", sets[1], "--frames", "2"]);
             assert_eq!(built, ["build 2, 3", "frame 0", "frame 1"], "{sets:?}");
         }
+        let then = ["--frames", "4", "--then", "2:height=7", "--then", "2:preset=1"];
+        let built = ["build 0, 0", "frame 0", "frame 1", "build 1, 7", "frame 0", "frame 1"];
+        assert_eq!(notes(&then), built, "a moved control begins a picture");
     }
 }

@@ -112,6 +112,21 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Sets the controls that `--then` names for a frame, by its place in the run; returns true if there are any.
+    ///
+    /// # Errors
+    /// If there is no such control or value, or the sample fails.
+    pub fn set_before(&mut self, frame: u32) -> Result<bool> {
+        let due = self.args.then.iter().filter(|(at, _)| *at == frame);
+        let sets: Vec<_> = due.map(|(_, set)| set.clone()).collect();
+        if sets.is_empty() {
+            return Ok(false);
+        }
+        controls::set_all(&sets, |c| self.sample.controls(c))?;
+        self.sample.changed(&self.gpu)?;
+        Ok(true)
+    }
+
     /// Renders the frame with this number.
     ///
     /// # Errors
@@ -119,7 +134,8 @@ impl<'a> Run<'a> {
     pub fn render(&mut self, index: u32) -> Result<()> {
         let accumulated = if self.apart { 0 } else { index };
         let Self { sample, image, bands, timer, gpu, between_bands, .. } = self;
-        bands.begin(image.extent, true);
+        // Nothing has changed since the frame before, unless this one is the first.
+        bands.begin(image.extent, index > 0);
         while bands.trace(&mut **sample, (gpu, timer, None), (image, index, accumulated))?.is_some()
         {
             between_bands()?;

@@ -74,6 +74,16 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
+    /// True if a camera jumps between two pictures, as at a cut, instead of moving: it turns by more than half its
+    /// field of view, or its eye moves by more than half the distance to its target.
+    pub fn is_cut_from(&self, before: &Self) -> bool {
+        let [_, _, now] = self.axes();
+        let [_, _, then] = before.axes();
+        let turned = now.angle_between(then).to_degrees();
+        let moved = self.eye.distance(before.eye);
+        turned > 0.5 * before.fov_y || moved > 0.5 * before.eye.distance(before.target)
+    }
+
     /// The basis for a picture whose width is `aspect` times its height.
     pub fn basis(&self, aspect: f64) -> CameraBasis {
         let [right, up, forward] = self.axes();
@@ -97,6 +107,23 @@ mod tests {
         assert_eq!(basis.forward, Vec3::NEG_Z);
         assert!((basis.up - Vec3::Y).length() < 1e-6, "{basis:?}");
         assert!((basis.right - 2.0 * Vec3::X).length() < 1e-6, "{basis:?}");
+    }
+
+    #[test]
+    fn a_cut_is_a_turn_or_a_move_that_no_frame_of_a_movement_makes() {
+        let before = Camera::new(DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, 40.0);
+        let turned = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            Camera { target: before.eye - 4.0 * DVec3::new(sin, 0.0, cos), ..before }
+        };
+        let moved = |by: DVec3| Camera { eye: before.eye + by, target: by, ..before };
+        assert!(!before.is_cut_from(&before));
+        assert!(!turned(19.0).is_cut_from(&before) && turned(21.0).is_cut_from(&before));
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            assert!(
+                !moved(1.9 * axis).is_cut_from(&before) && moved(2.1 * axis).is_cut_from(&before)
+            );
+        }
     }
 
     #[test]

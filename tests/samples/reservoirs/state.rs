@@ -1,6 +1,11 @@
 //! Counts, weights and histories: exact, finite, and never those of another scene.
 
-use run::Chapter;
+use std::fs;
+use std::io::Cursor;
+
+use image::AnimationDecoder;
+use image::codecs::png::PngDecoder;
+use run::{Chapter, bits, command};
 
 use super::{NAME, chapter, colors, mean};
 
@@ -52,4 +57,45 @@ fn the_worst_arithmetic_changes_no_light() {
     let (plain, worst) = (of(&[]), of(&["--arithmetic", "worst"]));
     println!("{plain} {worst}");
     assert!((plain / worst - 1.0).abs() < 0.02, "{plain} {worst}");
+}
+
+/// A picture after a cut is that of a fresh start; a camera that moves on keeps its reservoirs.
+#[test]
+fn a_cut_leaves_no_reservoirs() {
+    let here = || Chapter::new(NAME).size("48x30");
+    let both = |set: &str| {
+        let after = here().frames(3).with(&["--then", &format!("2:{set}")]).picture();
+        (bits(&after), bits(&here().sets(&[set]).picture()))
+    };
+    for cut in ["camera eye=7,2,-3", "camera target=9,0.5,3", "scene=chess", "seed=5"] {
+        let (after, fresh) = both(cut);
+        assert!(after == fresh, "{cut}");
+    }
+    let (after, fresh) = both("camera eye=-7.3,2.6,3.6");
+    assert!(after != fresh, "the reservoirs begin anew without a reason");
+}
+
+/// `--animate` writes the frames that `--frames` renders: the camera turns from one to the next.
+#[test]
+fn a_turn_can_be_animated() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let written = |name: &str, more: &[&str]| {
+        let file = folder.path().join(name);
+        let mut run = command(NAME);
+        run.args(["--headless", "--size", "48x30", "--set", "turn=8"]).args(more);
+        let output = run.arg("--out").arg(&file).output().expect("it starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && errors.is_empty(), "{errors}");
+        fs::read(file).expect("a picture")
+    };
+    let all = written("all.png", &["--animate", "--frames", "3"]);
+    let decoder = PngDecoder::new(Cursor::new(all)).expect("a PNG");
+    let frames = decoder.apng().expect("an animation").into_frames().collect_frames();
+    let frames = frames.expect("whole frames");
+    for (number, frame) in (1..).zip(&frames) {
+        let one = written("one.png", &["--frames", &number.to_string()]);
+        let one = image::load_from_memory(&one).expect("a PNG").to_rgba8();
+        assert!(*frame.buffer() == one, "frame {number}");
+    }
+    assert_eq!(frames.len(), 3);
 }

@@ -41,7 +41,7 @@ const FALLING: f64 = 0.97;
 #[group(skip)]
 pub struct Options {
     /// Time a control's values in turn for --frames rounds, and print a table
-    #[arg(long, value_name = "NAME=A|B|…", conflicts_with_all = ["list_controls", "list_records", "animate"])]
+    #[arg(long, value_name = "NAME=A|B|…", conflicts_with_all = ["list_controls", "list_records", "animate", "then"])]
     pub compare: Option<String>,
 
     /// With --compare: the error of each value's picture after --frames frames, against this one

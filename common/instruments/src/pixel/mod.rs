@@ -32,7 +32,8 @@ pub struct Options {
         value_parser = which,
         allow_hyphen_values = true,
         conflicts_with_all = [
-            "validate", "out", "report", "compare", "samples", "compile_for", "arithmetic", "animate", "list_controls", "list_records",
+            "validate", "out", "report", "compare", "samples", "compile_for", "arithmetic", "animate", "then",
+            "list_controls", "list_records",
         ]
     )]
     pub pixel: Option<Which>,
@@ -111,7 +112,7 @@ impl Probe {
             }
             let told = self.told(&mut || {
                 run.trace_pixel(pixel, index)?;
-                Ok(Clicked { pixel, size })
+                Ok(Clicked { pixel, size, passes: run.sample.passes() })
             })?;
             output::print(&format!("{} · frame {index} · {told}", run.name))?;
         }
@@ -139,7 +140,7 @@ impl Probe {
         let layer = gpu.validation();
         layer.take_printed();
         log.write(0, &[0u32])?;
-        let Clicked { pixel: [x, y], size: [width, height] } = trace()?;
+        let Clicked { pixel: [x, y], size: [width, height], mut passes } = trace()?;
         let (words, printed, known) =
             (log.read::<u32>()?, layer.take_printed(), self.stages.known());
         let written = words[0] as usize;
@@ -154,6 +155,15 @@ impl Probe {
         if written > room {
             let _ =
                 writeln!(told, "the log is full: {written} words, and there is room for {WORDS}");
+        }
+        if !passes.is_empty() {
+            passes.dedup();
+            let _ = writeln!(
+                told,
+                "these are the rays of the first pass alone: the picture's value also depends on other pixels and on \
+                 earlier frames, by the passes that follow ({}), which --pixel does not run",
+                passes.join(", ")
+            );
         }
         if written == 0 {
             idle::refuse(gpu, "there are no rays to print")?;

@@ -29,7 +29,7 @@ use common::{files, output};
 #[group(skip)]
 pub struct Options {
     /// Without a window, render the samples A to B-1 of a picture that is the mean of many; the output is their exact mean
-    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare", "animate"])]
+    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare", "animate", "then"])]
     pub samples: Option<Range<u32>>,
 
     /// With --samples, store their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C

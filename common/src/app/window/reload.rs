@@ -1,7 +1,8 @@
 //! Shaders edited while the window is open: noticed, compiled in the background, compared.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
@@ -10,18 +11,18 @@ use notify::{RecommendedWatcher, RecursiveMode, Watcher};
 use winit::event_loop::EventLoopProxy;
 
 use super::Wake;
-use crate::gpu::{Bound, Reflection, shader};
+use crate::gpu::{Bound, PipelineDesc, Reflection, shader};
 
 /// Editors save in several steps; compile once they are done.
 const DEBOUNCE: Duration = Duration::from_millis(60);
 
 /// Watches the source files of a sample's shaders.
 pub struct Reload {
-    stages: BTreeSet<String>,
+    /// The stages of each pipeline, by path below `shaders/`, and the bindings that they declare together.
+    pipelines: BTreeMap<BTreeSet<String>, Vec<Bound>>,
     /// True if the set of included files may have changed.
     stale: bool,
     files: Vec<String>,
-    bound: Vec<Bound>,
     due: Option<Instant>,
     compiling: bool,
     failed: bool,
@@ -33,10 +34,9 @@ impl Reload {
     /// Watches the shader folders. If the system does not support it, F5 still reloads.
     pub fn new(proxy: EventLoopProxy<Wake>) -> Self {
         Self {
-            stages: BTreeSet::new(),
+            pipelines: BTreeMap::new(),
             stale: false,
             files: Vec::new(),
-            bound: Vec::new(),
             due: None,
             compiling: false,
             failed: false,
@@ -45,24 +45,31 @@ impl Reload {
         }
     }
 
-    /// Adds shaders that have come into use, by path below `shaders/`.
+    /// Adds the shaders of pipelines that have come into use.
     ///
     /// # Errors
     /// If one of them no longer compiles.
-    pub fn learn(&mut self, new: &[String]) -> Result<()> {
-        let known = self.stages.len();
-        self.stages.extend(new.iter().cloned());
-        if self.stages.len() == known && !std::mem::take(&mut self.stale) {
+    pub fn learn(&mut self, new: &[Arc<PipelineDesc>]) -> Result<()> {
+        let known = self.pipelines.len();
+        for desc in new {
+            let stages = desc.stages.iter().map(|stage| stage.path.clone()).collect();
+            self.pipelines.entry(stages).or_default();
+        }
+        if self.pipelines.len() == known && !std::mem::take(&mut self.stale) {
             return Ok(());
         }
-        let (mut files, mut bound) = (Vec::new(), Vec::new());
-        for stage in &self.stages {
-            // They have just been compiled, so this only reads the cache.
-            let shader = shader::compile(stage)?;
-            files.extend(shader.files());
-            bound.extend(Reflection::of(&shader.spirv)?.descriptors());
+        let (mut files, mut pipelines) = (Vec::new(), BTreeMap::new());
+        for stages in self.pipelines.keys() {
+            let mut bound = Vec::new();
+            for stage in stages {
+                // They have just been compiled, so this only reads the cache.
+                let shader = shader::compile(stage)?;
+                files.extend(shader.files());
+                bound.extend(Reflection::of(&shader.spirv)?.descriptors());
+            }
+            pipelines.insert(stages.clone(), bound);
         }
-        (self.files, self.bound) = (files, bound);
+        (self.files, self.pipelines) = (files, pipelines);
         Ok(())
     }
 
@@ -90,7 +97,8 @@ impl Reload {
             return Some(due);
         }
         (self.due, self.compiling) = (None, true);
-        let (stages, proxy) = (self.stages.clone(), self.proxy.clone());
+        let stages: BTreeSet<_> = self.pipelines.keys().flatten().cloned().collect();
+        let proxy = self.proxy.clone();
         // A closed event loop ignores the result.
         let work = move || _ = proxy.send_event(Wake::Compiled(compile(&stages)));
         if let Err(error) = Builder::new().name("shaders".to_owned()).spawn(work) {
@@ -116,15 +124,16 @@ impl Reload {
         self.failed = true;
     }
 
-    /// The program defines the bindings; a shader that needs others must wait for it.
+    /// The program defines the bindings of each pipeline; a shader that needs others must wait for it.
     fn compare(&self) -> Result<(), String> {
-        for stage in &self.stages {
+        let stages = |(stages, bound)| std::iter::repeat(bound).zip(stages);
+        for (bound, stage) in self.pipelines.iter().flat_map(stages) {
             let one_line = |error: anyhow::Error| format!("{error:#}");
             let spirv = shader::compile(stage).map_err(one_line)?.spirv;
             for new in Reflection::of(&spirv).map_err(one_line)?.descriptors() {
                 let Bound { set, binding, kind } = new;
                 let place = |old: &&Bound| (old.set, old.binding) == (set, binding);
-                let was = match self.bound.iter().find(place) {
+                let was = match bound.iter().find(place) {
                     Some(old) if old.kind == kind => continue,
                     Some(old) => format!("where the program binds {}", old.kind),
                     None => "where the program binds nothing".to_owned(),

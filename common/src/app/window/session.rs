@@ -215,7 +215,7 @@ impl Session {
     /// Watches the shaders of the current pipelines.
     fn learn(&mut self) {
         let statistics = self.on_gpu.gpu.take_statistics();
-        if let Err(error) = self.reload.learn(&statistics.stages()) {
+        if let Err(error) = self.reload.learn(&statistics.descs) {
             self.panel.error = Some(format!("{error:#}"));
         }
         if !statistics.descs.is_empty() {

@@ -272,7 +272,7 @@ impl View {
         bands::trace_pixel(&mut *self.sample, &self.gpu, (&self.image, 0, 0), pixel)?;
         self.bands.stop();
         self.change();
-        Ok(Clicked { pixel, size })
+        Ok(Clicked { pixel, size, passes: self.sample.passes() })
     }
 
     /// Replaces the last picture by the completed one.
