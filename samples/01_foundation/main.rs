@@ -61,6 +61,7 @@ fn run() -> Result<()> {
             options.sums.samples.is_some(),
             "renders one frame: --samples is for chapters whose frames are samples of one picture, such as 04_jitter_camera",
         ),
+        (!args.then.is_empty(), "has no controls: --then works from 02 on"),
         (args.scene.is_some(), "brings its own triangle and takes no --scene"),
         (args.unordered, "has one triangle: there is nothing to order"),
     ];

@@ -162,7 +162,10 @@ impl Lab {
 
     /// Refuses what goes with a picture alone.
     fn check(&self, args: &Args, options: &Options) -> Result<(), UsageError> {
-        if options.compare.compare.is_some() || args.list_devices || !args.sets.is_empty() {
+        if options.compare.compare.is_some()
+            || args.list_devices
+            || !(args.sets.is_empty() && args.then.is_empty())
+        {
             let line =
                 "--cases, --measure, --atlas and --faults take no controls, and list no devices";
             return Err(UsageError(line.to_owned()));

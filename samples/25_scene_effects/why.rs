@@ -67,8 +67,8 @@ fn check(args: &Args, options: &Options) -> Result<(), UsageError> {
     let taken = args.sets.iter().find(|(name, _)| OWN.iter().any(|(own, _)| own == name));
     let line = match taken {
         Some((name, _)) => format!("--why sets the control '{name}' itself; leave it out"),
-        None if args.out.is_some() || args.animate => {
-            "--why makes no picture for --out or --animate".to_owned()
+        None if args.out.is_some() || args.animate || !args.then.is_empty() => {
+            "--why makes no picture for --out, --animate or --then".to_owned()
         }
         None if !options.are_none() => {
             "--why prints a table of its own and takes none of the instruments' options".to_owned()

@@ -1,5 +1,5 @@
 // A ray against an algebraic surface: the points of a closed box where a polynomial of degree four in x, y and z is 0. If
-// the first coefficient of every power is 0, its degree is three or lower.
+// the coefficients of all terms of degree four are 0, it is a cubic, or of a lower degree.
 //
 // Along a ray it is a polynomial in t. A touch counts once, and a ray along which the polynomial is 0 has no hit. `precise`:
 // rounding is what this is about, so no compiler may rearrange it.

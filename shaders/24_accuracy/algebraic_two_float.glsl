@@ -107,7 +107,7 @@ vec2 quartic_root(QuarticTwoFloat q, vec2 low, vec2 high, int sign_at_low) {
 // ANCHOR: algebraic
 void algebraic_two_float(Algebraic a, vec3 o, vec3 d, float tmin, float tmax, out AlgebraicHits hits) {
     hits = AlgebraicHits(0, 0.0);
-    // No edge of the box is longer than about 1, nor is the direction.
+    // Scaled by powers of two, so that no edge of the box is longer than about 1, nor is the direction.
     int speed = exponent_of(d);
     d = scaled(d, -speed);
     int size = exponent_of(a.high - a.low);

@@ -1,7 +1,7 @@
 // The real roots of a cubic in closed form.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
-// pow() of 0 is undefined.
+// log2() of 0 is undefined.
 float cube_root(float x) {
     return x == 0.0 ? 0.0 : sign(x) * exp2(log2(abs(x)) * (1.0 / 3.0));
 }

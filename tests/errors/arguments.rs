@@ -113,12 +113,21 @@ fn what_cannot_be_set_on_the_way() {
     for (then, words) in [
         ("sun elevation=30", "it takes the number of a frame and a setting, such as \"12:sun"),
         ("x:sun elevation=30", "it takes the number of a frame"),
-        ("4:sun elevation=30", "--then names frame 4, and the last one is 3: --frames 5 has it"),
+        (
+            "4:sun elevation=30",
+            "--then names frame 4, but the run has frames 0 to 3: give it more by --frames",
+        ),
         ("1:sun=30", "no control 'sun'"),
         ("1:sun elevation=300", "cannot be '300'"),
+        ("-1:sun elevation=30", "it takes the number of a frame"),
     ] {
         refused(&["--frames", "4", "--then", then], 2, &[words]);
     }
+    // Also where nothing is rendered.
+    refused(&["--list-controls", "--then", "0:sun=30"], 2, &["no control 'sun'"]);
+    let two = ["--scene", "samples/assets/chess.obj", "--then", "0:scene=chess"];
+    let (code, line) = run::refused("31_history_and_filter", &[&["--headless"][..], &two].concat());
+    assert!(code == 2 && line.contains("are two scenes"), "{line}");
     let (code, line) = run::refused("01_foundation", &["--headless", "--then", "0:a=1"]);
     assert!(code == 2 && line.contains("--then works from 02 on"), "{line}");
 }

@@ -107,10 +107,6 @@ pub fn check_files(args: &Args, options: &Options) -> Result<()> {
             "this program has no animation: use --animate with one that does, such as 14_animation";
         return Err(UsageError(why.to_owned()).into());
     }
-    if !args.then.is_empty() {
-        let why = "this program has no controls: --then works from 02 on";
-        return Err(UsageError(why.to_owned()).into());
-    }
     app::files::check(args)?;
     Ok(options.report.check()?)
 }

@@ -57,7 +57,7 @@ pub struct Args {
 
     /// With --headless: set a control just before a frame, as if it were moved in the window; repeatable. The first
     /// frame is number 0
-    #[arg(long, value_name = "FRAME:NAME=VALUE", value_parser = later, requires = "headless")]
+    #[arg(long, value_name = "FRAME:NAME=VALUE", value_parser = later, allow_hyphen_values = true, requires = "headless")]
     pub then: Vec<(u32, (String, String))>,
 
     /// Print the controls: name, kind, possible values, value; other options are checked, and nothing is rendered
@@ -106,10 +106,12 @@ impl Args {
 
     /// Fails if a file and a control both name the scene: one of them would be ignored.
     fn one_scene(&self) -> Result<(), UsageError> {
-        let set = self.sets.iter().find(|(name, value)| name == "scene" && value != "file");
+        let then = self.then.iter().map(|(_, set)| ("--then", set));
+        let mut sets = self.sets.iter().map(|set| ("--set", set)).chain(then);
+        let set = sets.find(|(_, (name, value))| name == "scene" && value != "file");
         match (&self.scene, set) {
-            (Some(file), Some((_, chosen))) => Err(UsageError(format!(
-                "--scene {} and --set \"scene={chosen}\" are two scenes; leave one of them out",
+            (Some(file), Some((option, (_, chosen)))) => Err(UsageError(format!(
+                "--scene {} and {option} \"scene={chosen}\" are two scenes; leave one of them out",
                 file.display()
             ))),
             _ => Ok(()),

@@ -73,9 +73,8 @@ fn check_later(args: &Args) -> Result<(), UsageError> {
     let frames = args.frames;
     match args.then.iter().find(|(at, _)| *at >= frames) {
         Some((at, _)) => Err(UsageError(format!(
-            "--then names frame {at}, and the last one is {}: --frames {} has it",
-            frames - 1,
-            u64::from(*at) + 1
+            "--then names frame {at}, but the run has frames 0 to {}: give it more by --frames",
+            frames - 1
         ))),
         None => Ok(()),
     }

@@ -61,6 +61,11 @@ impl<'a> Run<'a> {
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let names = args.sets.iter().map(|(name, _)| &**name);
         output::warn(&controls::without_effect(names, |c| sample.controls(c)));
+        for (_, (name, text)) in &args.then {
+            // A setting before this one may declare the control.
+            let alone = args.then.iter().all(|(_, (other, _))| other == name);
+            controls::try_to_set(name, text, alone, |c| sample.controls(c))?;
+        }
         Ok(Self {
             name: program.name,
             args,
@@ -123,6 +128,8 @@ impl<'a> Run<'a> {
             return Ok(false);
         }
         controls::set_all(&sets, |c| self.sample.controls(c))?;
+        let names = sets.iter().map(|(name, _)| &**name);
+        output::warn(&controls::without_effect(names, |c| self.sample.controls(c)));
         self.sample.changed(&self.gpu)?;
         Ok(true)
     }

@@ -72,6 +72,6 @@ pub struct Clicked {
     pub pixel: [u32; 2],
     /// Columns and rows of the picture.
     pub size: [u32; 2],
-    /// The passes that make the picture's value afterwards, and were not run.
+    /// The names of the passes after the first, which `--pixel` does not run.
     pub passes: Vec<&'static str>,
 }

@@ -21,10 +21,7 @@ impl Visit for Settings<'_> {
         let (_, text) = self.waiting.remove(wanted);
         let before = value.text();
         if value.set(text).is_none() {
-            let kind = if let Value::Integer(..) = value { "a whole number from " } else { "" };
-            let possible = value.possible();
-            self.refused =
-                Some(format!("control '{name}' cannot be '{text}': it takes {kind}{possible}"));
+            self.refused = Some(impossible(name, text, &value));
         }
         self.repeats || value.text() != before
     }
@@ -41,6 +38,59 @@ impl Visit for Settings<'_> {
             self.refused.get_or_insert(line);
         }
         moved
+    }
+}
+
+fn impossible(name: &str, text: &str, value: &Value) -> String {
+    let kind = if let Value::Integer(..) = value { "a whole number from " } else { "" };
+    format!("control '{name}' cannot be '{text}': it takes {kind}{}", value.possible())
+}
+
+fn unknown(name: &str, seen: &[String]) -> UsageError {
+    let elsewhere = elsewhere::chapters_with(name);
+    UsageError(format!("no control '{name}'{elsewhere}; there is {}", seen.join(", ")))
+}
+
+/// A setting that is tried, and taken back.
+struct Tried<'a> {
+    name: &'a str,
+    text: &'a str,
+    seen: Vec<String>,
+    refused: Option<String>,
+}
+
+impl Visit for Tried<'_> {
+    fn visit(&mut self, name: &str, mut value: Value) -> bool {
+        self.seen.push(name.to_owned());
+        if name == self.name {
+            let before = value.text();
+            match value.set(self.text) {
+                Some(_) => _ = value.set(&before),
+                None => self.refused = Some(impossible(name, self.text, &value)),
+            }
+        }
+        false
+    }
+}
+
+/// Tests whether a control of those that `declare` declares can have a value, and sets nothing.
+///
+/// # Errors
+/// As [`set`]; a control that is not declared is an error only if `all_are_declared`.
+pub fn try_to_set(
+    name: &str,
+    text: &str,
+    all_are_declared: bool,
+    declare: impl FnOnce(&mut Controls),
+) -> Result<(), UsageError> {
+    let mut tried = Tried { name, text, seen: Vec::new(), refused: None };
+    declare(&mut Controls::new(&mut tried));
+    match tried.refused {
+        Some(refused) => Err(UsageError(refused)),
+        None if all_are_declared && !tried.seen.iter().any(|seen| seen == name) => {
+            Err(unknown(name, &tried.seen))
+        }
+        None => Ok(()),
     }
 }
 
@@ -116,9 +166,7 @@ fn round(
         }
         // A control may be declared only after a later one has been set.
         if settings.waiting.len() == count {
-            let there_is = settings.seen.join(", ");
-            let elsewhere = elsewhere::chapters_with(name);
-            return Err(UsageError(format!("no control '{name}'{elsewhere}; there is {there_is}")));
+            return Err(unknown(name, &settings.seen));
         }
     }
     Ok(())

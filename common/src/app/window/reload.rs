@@ -55,9 +55,11 @@ impl Reload {
             let stages = desc.stages.iter().map(|stage| stage.path.clone()).collect();
             self.pipelines.entry(stages).or_default();
         }
-        if self.pipelines.len() == known && !std::mem::take(&mut self.stale) {
+        if self.pipelines.len() == known && !self.stale {
             return Ok(());
         }
+        // Until all of them have been read.
+        self.stale = true;
         let (mut files, mut pipelines) = (Vec::new(), BTreeMap::new());
         for stages in self.pipelines.keys() {
             let mut bound = Vec::new();
@@ -69,7 +71,7 @@ impl Reload {
             }
             pipelines.insert(stages.clone(), bound);
         }
-        (self.files, self.pipelines) = (files, pipelines);
+        (self.files, self.pipelines, self.stale) = (files, pipelines, false);
         Ok(())
     }
 
