@@ -15,7 +15,7 @@ use super::chart::Chart;
 use crate::gpu::ShaderEnum;
 use crate::scene::{Camera, Sun};
 
-pub use settings::{set, set_all, set_beside};
+pub use settings::{set, set_all, set_beside, try_to_set};
 pub use value::Value;
 
 /// A visitor that is shown every control in turn: the panel, a list, a setting.
