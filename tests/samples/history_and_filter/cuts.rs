@@ -41,7 +41,7 @@ fn a_cut_leaves_no_history() {
     let move_on = &["camera eye=6.4,2.6,-2.7"];
     assert!(
         bits(&after(move_on)) != bits(&fresh(move_on)),
-        "a history begins anew without a reason"
+        "a history starts again without a reason"
     );
 }
 

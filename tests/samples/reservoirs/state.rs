@@ -72,7 +72,7 @@ fn a_cut_leaves_no_reservoirs() {
         assert!(after == fresh, "{cut}");
     }
     let (after, fresh) = both("camera eye=-7.3,2.6,3.6");
-    assert!(after != fresh, "the reservoirs begin anew without a reason");
+    assert!(after != fresh, "the reservoirs start again without a reason");
 }
 
 /// `--animate` writes the frames that `--frames` renders: the camera turns from one to the next.
