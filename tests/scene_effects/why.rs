@@ -41,7 +41,7 @@ fn every_effect_has_a_line_with_its_reason() {
 #[test]
 fn what_goes_with_a_picture_is_refused_in_one_line() {
     for (arguments, part) in [
-        (&["--out", "x.png"][..], "--why makes no picture for --out or --animate"),
+        (&["--out", "x.png"][..], "--why makes no picture for --out, --animate or --then"),
         (&["--set", "without=spheres"], "--why sets the control 'without' itself; leave it out"),
         (&["--compare", "without=nothing|spheres"], "takes none of the instruments' options"),
         (&["--scene", "no_such.toml"], "no_such.toml"),
