@@ -73,8 +73,11 @@ impl Description {
             let what = format!("a scene that moves has at most {} placed meshes", Motion::MOST);
             return Err(source.error(self.camera.span().start, &what));
         }
-        let motion =
-            moves.then(|| Motion { frames: self.picture.frames, pieces: ways, orbit: view.orbit });
+        let motion = moves.then_some(Motion {
+            frames: self.picture.frames,
+            pieces: ways,
+            orbit: view.orbit,
+        });
         let bodies = instances.iter().filter(|placed| is_body(&model.materials[placed.material]));
         let bodies: HashSet<usize> = bodies.map(|placed| placed.mesh).collect();
         let turned = turn_outwards(&mut model.meshes, |mesh| bodies.contains(&mesh), &shown(path));
