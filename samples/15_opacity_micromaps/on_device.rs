@@ -24,7 +24,7 @@ impl OnDevice {
     pub fn finest(gpu: &Gpu) -> Result<u32> {
         let lacks = || {
             format!(
-                "{} has no VK_KHR_opacity_micromap: with way=shader the any-hit shader reads the states",
+                "{} has no VK_KHR_opacity_micromap: use way=shader, where the any-hit shader reads the states",
                 gpu.name
             )
         };

@@ -152,7 +152,7 @@ fn without_the_extension_the_device_s_way_is_refused_in_one_line() {
     let (code, line) = refused(NAME, &["--headless", "--size", "8x8", "--set", "way=device"]);
     assert_eq!(code, 1);
     let words =
-        "has no VK_KHR_opacity_micromap: with way=shader the any-hit shader reads the states";
+        "has no VK_KHR_opacity_micromap: use way=shader, where the any-hit shader reads the states";
     assert!(line.contains(words), "{line}");
 }
 
