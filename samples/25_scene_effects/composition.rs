@@ -7,7 +7,9 @@ use common::scene::{Camera, DiskLight, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
 use crate::rough::roughen;
-use crate::{Box, Environment, Face, Finish, Solid, Sphere, Strands, ThinLens, Torus, is_glass};
+use crate::{
+    Box, Environment, Face, Finish, Motion, Solid, Sphere, Strands, ThinLens, Torus, is_glass,
+};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,6 +105,8 @@ pub struct Composition {
     pub depth: u32,
     /// Maximum number of times it is scattered.
     pub bounces: u32,
+    /// What moves from frame to frame, if anything does.
+    pub motion: Option<Motion>,
 }
 
 /// The most lights of a composition.
@@ -149,6 +153,7 @@ impl Composition {
             light_samples: 16,
             depth: 4,
             bounces: 0,
+            motion: None,
         };
         composition.scene.model.materials.iter_mut().for_each(close);
         composition.prune();

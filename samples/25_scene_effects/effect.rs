@@ -63,6 +63,8 @@ common::shader_enum! {
         DepthOfField,
         /// Spheres that move while the shutter is open (23).
         MotionBlur = "motion blur",
+        /// Light of earlier frames, where something moves from frame to frame (31).
+        History,
     }
 }
 

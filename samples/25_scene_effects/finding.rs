@@ -108,6 +108,11 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         DepthOfField => (scene.lens.diameter > 0.0)
             .then(|| format!("the camera has a lens of diameter {}", scene.lens.diameter)),
         MotionBlur => count(scene.moving(), "sphere").map(|n| format!("{n} under way")),
+        History => scene.motion.as_ref().map(|motion| match motion.pieces.len() {
+            0 => "the camera moves from frame to frame".to_owned(),
+            1 => "1 placed mesh moves from frame to frame".to_owned(),
+            count => format!("{count} placed meshes move from frame to frame"),
+        }),
     }
 }
 
@@ -140,5 +145,6 @@ fn why_not(effect: Effect) -> &'static str {
         AntiAliasing => "one ray per pixel",
         DepthOfField => "the camera is a pinhole",
         MotionBlur => "nothing moves while the shutter is open",
+        History => "nothing moves from frame to frame",
     }
 }

@@ -2,10 +2,14 @@
 
 use anyhow::Result;
 use ash::vk;
+use common::Frame;
 use common::gpu::order::{self, around};
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, padded};
 use common::model::panorama::Panorama;
-use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
+use common::scene::{
+    Camera, Mesh, SceneOnGpu, boxes_on_gpu, build_top, build_updatable_top, input_usage,
+    instance_bytes, transform,
+};
 use effects::{Composition, EmitterAddresses, Environment, Lamps, Sphere, Torus};
 use glam::{Affine3A, Vec3};
 
@@ -21,15 +25,32 @@ pub struct SceneGeometry {
     pub scene: SceneOnGpu,
     /// Addresses of the shapes.
     pub shapes: Shapes,
+    /// Bound on the error of the distance between two computed points of the scene.
+    pub rounding: f32,
     /// Bound on the distance from a ray's origin to a shape, which its box allows for.
     reach: f32,
     instances: Vec<Placed>,
-    /// A top level for each set of hit records needed by a pipeline, by its cull mask.
-    tops: Vec<(u32, AccelerationStructure)>,
+    /// True if meshes move from frame to frame.
+    moves: bool,
+    /// A top level for each set of hit records needed by a pipeline.
+    tops: Vec<Top>,
     _levels: Vec<AccelerationStructure>,
     _buffers: Vec<Buffer>,
     _rough: Option<RoughOnGpu>,
     _sky: Option<SkyOnGpu>,
+}
+
+/// A top level for the hit records of a pipeline.
+struct Top {
+    /// The cull mask of its pipeline.
+    mask: u32,
+    level: AccelerationStructure,
+    /// The instances in the order of the build.
+    order: Vec<u32>,
+    /// Where they are.
+    places: Vec<Affine3A>,
+    /// The instances for an update, and its scratch memory, if anything moves.
+    update: Option<(Buffer, Buffer)>,
 }
 
 /// An instance before it knows its hit record.
@@ -46,12 +67,14 @@ impl SceneGeometry {
     ///
     /// # Errors
     /// If memory is short.
-    pub fn new(gpu: &Gpu, from: &Composition, scene: SceneOnGpu, eye: Vec3) -> Result<Self> {
+    pub fn new(gpu: &Gpu, from: &Composition, scene: SceneOnGpu, camera: &Camera) -> Result<Self> {
         let mut geometry = Self {
             scene,
             shapes: Shapes::default(),
-            reach: reach(from, eye),
+            rounding: rounding(from),
+            reach: reach(from, camera),
             instances: Vec::new(),
+            moves: from.motion.is_some(),
             tops: Vec::new(),
             _levels: Vec::new(),
             _buffers: Vec::new(),
@@ -120,9 +143,17 @@ impl SceneGeometry {
         Ok(geometry)
     }
 
-    /// Tests whether rays may begin at an eye.
-    pub fn reaches(&self, from: &Composition, eye: Vec3) -> bool {
-        reach(from, eye) <= self.reach
+    /// Tests whether rays may begin at a camera.
+    pub fn reaches(&self, from: &Composition, camera: &Camera) -> bool {
+        reach(from, camera) <= self.reach
+    }
+
+    /// Moves the meshes to where a scene has them.
+    pub fn place(&mut self, scene: &Composition) {
+        // Instances begin with the scene's, in their order.
+        for (placed, instance) in self.instances.iter_mut().zip(&scene.scene.instances) {
+            placed.transform = instance.transform;
+        }
     }
 
     /// Boxes for the intersection shader of a kind, near beside near; returns their order.
@@ -189,21 +220,46 @@ impl SceneGeometry {
         })
     }
 
-    /// The top level whose instances name the hit records of a pipeline, and the bits of its cull mask.
+    /// The top level whose instances name the hit records of a pipeline, and the bits of its cull mask. Records its
+    /// update if something has moved.
     ///
     /// # Errors
     /// If memory is short.
-    pub fn top_level(&mut self, gpu: &Gpu, recipe: Recipe) -> Result<&AccelerationStructure> {
-        let known = self.tops.iter().position(|(mask, _)| *mask == recipe.mask());
+    pub fn top_level(&mut self, frame: &Frame, recipe: Recipe) -> Result<&AccelerationStructure> {
+        let gpu = frame.gpu;
+        let known = self.tops.iter().position(|top| top.mask == recipe.mask());
         let place = known.unwrap_or(self.tops.len());
+        let places: Vec<_> = self.instances.iter().map(|placed| placed.transform).collect();
+        let on_device = |order: &[u32]| -> Vec<_> {
+            order.iter().map(|&i| self.instances[i as usize].for_device(recipe)).collect()
+        };
         if known.is_none() {
             let bounds: Vec<_> = self.instances.iter().map(|placed| placed.bounds).collect();
-            let order = order::for_build(gpu, &bounds, self.scene.options.ordering).into_iter();
-            let instances = order.map(|i| self.instances[i as usize].for_device(recipe));
-            let top = build_top(gpu, &instances.collect::<Vec<_>>())?;
-            self.tops.push((recipe.mask(), top));
+            let order = order::for_build(gpu, &bounds, self.scene.options.ordering);
+            let instances = on_device(&order);
+            let (level, update) = if self.moves {
+                let level = build_updatable_top(gpu, &instances)?;
+                let bytes: Vec<_> = instances.iter().map(instance_bytes).collect();
+                let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+                let buffer = Buffer::with_data(gpu, "moving instances", &bytes, usage)?;
+                let scratch = level.scratch()?;
+                (level, Some((buffer, scratch)))
+            } else {
+                (build_top(gpu, &instances)?, None)
+            };
+            self.tops.push(Top { mask: recipe.mask(), level, order, places, update });
+        } else if let Top { level, order, places: before, update: Some((buffer, scratch)), .. } =
+            &mut self.tops[place]
+            && *before != places
+        {
+            let bytes: Vec<_> = on_device(order).iter().flat_map(instance_bytes).collect();
+            buffer.update(frame.cmd, &bytes)?;
+            let count = order.len() as u32;
+            let input = [Geometry::Instances { instances: buffer.address, count }];
+            level.update(frame.cmd, &input, scratch)?;
+            *before = places;
         }
-        Ok(&self.tops[place].1)
+        Ok(&self.tops[place].level)
     }
 }
 
@@ -241,10 +297,10 @@ fn sphere_bounds(sphere: &Sphere) -> order::Bounds {
     (low - radius, high + radius)
 }
 
-/// Bound on the distance from a ray's origin to a shape: at the eye, on the plane below the eye, or
-/// on the scene. Rounded up to a power of two, so that few steps of a camera change it.
-fn reach(scene: &Composition, eye: Vec3) -> f32 {
+/// Boxes around everything rays can hit except the plane, wherever it moves.
+fn bounds(scene: &Composition) -> Vec<order::Bounds> {
     let meshes = scene.scene.bounds_of_instances().into_iter();
+    let moving = scene.motion.iter().flat_map(|motion| motion.bounds(&scene.scene));
     let spheres = scene.spheres.iter().map(sphere_bounds);
     let boxes = scene.boxes.iter().map(|b| (b.low, b.high));
     let ground = scene.heightfield.iter().map(crate::ground::bounds);
@@ -252,9 +308,25 @@ fn reach(scene: &Composition, eye: Vec3) -> f32 {
     let strands = scene.strands.bounds();
     let tori = scene.tori.iter().map(Torus::bounds);
     let shapes = spheres.chain(boxes).chain(ground).chain(solids).chain(strands).chain(tori);
-    let all: Vec<_> = meshes.chain(shapes).collect();
-    let lens = 0.5 * scene.lens.diameter;
-    let (low, high) = around(&[around(&all), (eye - lens, eye + lens)]);
+    meshes.chain(moving).chain(shapes).collect()
+}
+
+/// Bound on the distance by which rounding moves a point along a direction, for two points. On a mesh each is off by
+/// 53 roundings of the largest coordinate per axis, as in 31, and on a shape by 76, as in report.glsl.
+fn rounding(scene: &Composition) -> f32 {
+    let meshes = scene.scene.model.meshes.iter().map(Mesh::bounds);
+    let corners = bounds(scene).into_iter().chain(meshes).flat_map(|(low, high)| [low, high]);
+    corners.map(|corner| corner.abs().max_element()).fold(0.0, f32::max) * 2f32.powi(-15)
+}
+
+/// Bound on the distance from a ray's origin to a shape: at the eye, on the plane below the eye, or
+/// on the scene. Rounded up to a power of two, so that few steps of a camera change it.
+fn reach(scene: &Composition, camera: &Camera) -> f32 {
+    let eye = camera.eye.as_vec3();
+    let orbits = scene.motion.as_ref().is_some_and(|motion| motion.orbit != 0.0);
+    let way = if orbits { 2.0 * camera.eye.distance(camera.target) as f32 } else { 0.0 };
+    let lens = 0.5 * scene.lens.diameter + way;
+    let (low, high) = around(&[around(&bounds(scene)), (eye - lens, eye + lens)]);
     // A plane goes on beyond all that; a shadow's ray that begins ten times as far is a speck.
     let beyond = if scene.plane.is_some() { 10.0 } else { 1.0 };
     (beyond * (high - low).length().max(1.0)).log2().ceil().exp2()

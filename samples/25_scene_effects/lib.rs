@@ -19,6 +19,7 @@ mod glass_of_27;
 mod lamps;
 #[path = "../28_depth_of_field/lens.rs"]
 mod lens;
+mod motion;
 mod normal_maps;
 mod rough;
 mod shapes;
@@ -39,6 +40,7 @@ pub use finish::{Finish, Pattern, is_blended};
 pub use glass::{Glass, GlassKind, is_body, is_glass};
 pub use lamps::Lamps;
 pub use lens::{Lens, ThinLens};
+pub use motion::{Motion, Way};
 pub use normal_maps::NORMAL_MAPS;
 pub use rough::{is_rough, rough_textures};
 pub use shapes::{Box, Face, Solid, Sphere};

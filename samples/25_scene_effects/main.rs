@@ -8,17 +8,23 @@ mod albedo;
 #[allow(dead_code, reason = "29 also makes tables of checked weights")]
 #[path = "../29_emitters/alias.rs"]
 mod alias;
+#[path = "../31_history_and_filter/back.rs"]
+mod back;
 mod clock;
 mod contents;
 mod costs;
 mod geometry;
 mod ground;
+mod history;
 #[allow(dead_code, reason = "45 takes other materials")]
 #[path = "../45_rough_metal/microfacets.rs"]
 mod microfacets;
 #[path = "../47_normal_maps/normal_map.rs"]
 mod normal_map;
 mod panel;
+#[allow(dead_code, reason = "31 also filters")]
+#[path = "../31_history_and_filter/pixels.rs"]
+mod pixels;
 mod recipe;
 mod report;
 mod scenes;
@@ -38,11 +44,11 @@ use ash::vk;
 use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements, ShaderEnum};
 use common::output;
 use common::scene::{Camera, CameraBasis, SceneAddresses, SceneOnGpu, SceneOptions, input_usage};
-use common::{Controls, Frame, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use costs::Costs;
 use effects::{Composition, Effect, Environment, Finding, findings, needed};
 use geometry::SceneGeometry;
-use glam::Vec3;
+use history::History;
 use microfacets::RoughAddresses;
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
@@ -61,6 +67,8 @@ fn main() -> ExitCode {
 }
 
 const PIPELINE_EVERYTHING: u32 = 1;
+/// The last frame of what moves: a minute.
+const LAST: u32 = 3600;
 
 struct Demo {
     scene: Composition,
@@ -71,6 +79,8 @@ struct Demo {
     world: Buffer,
     pipelines: Variants<Recipe>,
     costs: Option<Costs>,
+    history: History,
+    playback: Playback,
     camera: Camera,
     file: Option<PathBuf>,
     number: u32,
@@ -135,6 +145,8 @@ impl Sample for Demo {
             world: Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?,
             pipelines: Variants::default(),
             costs: None,
+            history: History::new(gpu)?,
+            playback: Playback::new(LAST),
             camera,
             file,
             number,
@@ -159,6 +171,9 @@ impl Sample for Demo {
         let known = if self.file.is_some() { SCENES.len() } else { FILE as usize };
         if c.one_of("scene", &mut self.number, &SCENES[..known]) {
             self.open();
+        }
+        if self.scene.motion.is_some() {
+            c.playback(&mut self.playback);
         }
         c.one_of("pipeline", &mut self.pipeline, &["specialised", "everything"]);
         let names = [&["nothing"], Effect::LAYOUT.words].concat();
@@ -198,41 +213,72 @@ impl Sample for Demo {
         if let Some(error) = self.trouble.take() {
             return Err(error);
         }
-        self.upload(gpu, self.camera.eye.as_vec3())
+        self.upload(gpu)
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        let camera = self.camera.basis(frame.aspect());
-        let shapes = self.geometry.as_ref().context("no scene")?.shapes;
+        let recipe = self.recipe();
+        let geometry = self.geometry.as_mut().context("no scene")?;
+        let mut view = self.camera;
+        if let Some(motion) = &self.scene.motion {
+            motion.place(&mut self.scene.scene.instances, self.playback.frame);
+            view = motion.camera(&self.camera, self.playback.frame);
+            geometry.place(&self.scene);
+        }
+        let camera = view.basis(frame.aspect());
+        let world = World::new(&self.scene, geometry.shapes, view.eye, 0);
         // With --samples, each frame has rays of its own.
+        let is_alone = frame.accumulated == 0 && frame.index > 0;
+        let number = if !recipe.effects.has(Effect::History) {
+            frame.first()
+        } else if self.scene.motion.is_none() || is_alone {
+            self.history.none(frame)?;
+            frame.first()
+        } else {
+            let now = (world, self.playback.frame, geometry.rounding);
+            self.history.begin(frame, &self.scene, recipe, &view, now)?
+        };
         let rays = self.scene.samples;
-        let next = frame.first().checked_add(1).and_then(|next| next.checked_mul(rays));
+        let next = number.checked_add(1).and_then(|next| next.checked_mul(rays));
         let first = next.context("rays are numbered up to 2^32: ask for fewer samples")? - rays;
-        let world = World::new(&self.scene, shapes, self.camera.eye, first);
-        self.world.update(frame.cmd, &[world])?;
+        self.world.update(frame.cmd, &[World { first_sample: first, ..world }])?;
         let pixels = u64::from(frame.image.extent.width) * u64::from(frame.image.extent.height);
         if self.show != clock::TIME {
             self.ticks = None;
         } else if self.ticks.as_ref().is_none_or(|ticks| ticks.size != 4 * pixels) {
             self.ticks = Some(clock::ticks(frame.gpu, frame.image.extent)?);
         }
-        let recipe = self.recipe();
+        let mut is_own = true;
         if !self.measure {
             self.costs = None;
-            return self.trace(frame, recipe, camera).map(|_| ());
+            is_own = self.trace(frame, recipe, camera)?;
+        } else {
+            let mut costs = Costs::for_recipe(frame.gpu, self.costs.take(), recipe)?;
+            costs.record(frame, |recipe| {
+                is_own = self.trace(frame, recipe, camera)?;
+                Ok(is_own)
+            })?;
+            self.costs = Some(costs);
         }
-        let mut costs = Costs::for_recipe(frame.gpu, self.costs.take(), recipe)?;
-        costs.record(frame, |recipe| self.trace(frame, recipe, camera))?;
-        self.costs = Some(costs);
+        self.history.end(frame, is_own);
         Ok(())
     }
 
     fn accumulates(&self) -> bool {
-        self.costs.as_ref().is_some_and(Costs::wants_more)
+        let follows = self.scene.motion.is_some() && self.recipe().effects.has(Effect::History);
+        self.costs.as_ref().is_some_and(Costs::wants_more) || follows && !self.history.is_full()
+    }
+
+    fn forget(&mut self) -> bool {
+        self.history.forget()
+    }
+
+    fn playback(&mut self) -> Option<&mut Playback> {
+        self.scene.motion.is_some().then_some(&mut self.playback)
     }
 
     fn gathers(&self) -> bool {
-        !self.measure
+        !self.measure && (self.scene.motion.is_none() || !self.playback.playing)
     }
 
     fn report(&self) -> Result<Value> {
@@ -249,6 +295,7 @@ impl Demo {
             Ok(scene) => {
                 output::warn(&scene.scene.model.warnings);
                 self.camera = scene.scene.camera;
+                self.playback = Playback::new(LAST);
                 (self.scene, self.geometry) = (scene, None);
                 (self.light, self.material, self.sky) = (1, 0, 0);
                 self.own_sky = self.scene.environment.clone();
@@ -282,13 +329,14 @@ impl Demo {
     // ANCHOR_END: recipe
 
     /// Uploads the scene, unless it is on the device already, and returns the addresses of its shapes.
-    fn upload(&mut self, gpu: &Gpu, eye: Vec3) -> Result<()> {
+    fn upload(&mut self, gpu: &Gpu) -> Result<()> {
         if let Some(geometry) = &self.geometry
-            && geometry.reaches(&self.scene, eye)
+            && geometry.reaches(&self.scene, &self.camera)
             && !self.repainted
         {
             return Ok(());
         }
+        self.history.forget();
         // Pipelines know the texture table; top levels know everything else.
         let textures = self.geometry.take().map(|geometry| geometry.scene.textures);
         if textures.is_none() {
@@ -296,7 +344,7 @@ impl Demo {
         }
         let options = SceneOptions { mipmaps: self.scene.filtered, ..self.options };
         let scene = SceneOnGpu::with_textures(gpu, &self.scene.scene, options, textures)?;
-        let geometry = SceneGeometry::new(gpu, &self.scene, scene, eye)?;
+        let geometry = SceneGeometry::new(gpu, &self.scene, scene, &self.camera)?;
         (self.geometry, self.repainted, self.costs) = (Some(geometry), false, None);
         Ok(())
     }
@@ -317,10 +365,13 @@ impl Demo {
             ticks: self.ticks.as_ref().map_or(0, |ticks| ticks.address).into(),
             hottest: self.hottest,
         };
-        let descriptors = [
-            Descriptor::AccelerationStructure(geometry.top_level(frame.gpu, *key)?),
+        let mut descriptors = vec![
+            Descriptor::AccelerationStructure(geometry.top_level(frame, *key)?),
             Descriptor::StorageImage(frame.image),
         ];
+        if key.effects.has(Effect::History) {
+            descriptors.push(Descriptor::StorageBuffer(&self.history.past));
+        }
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

@@ -6,7 +6,7 @@ use common::gpu::{Binding, Gpu, HitGroup, RayTracingPipeline, TextureTable};
 use effects::Effect::*;
 use effects::{Composition, Effect, Effects, Finish, MAX_LIGHTS};
 
-use crate::{Push, world};
+use crate::{Push, history, world};
 
 /// A kind of geometry: each has a hit group and a bit of the cull mask of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,6 +196,9 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
     }
     if recipe.effects.has_any(&[Textures, NormalMaps, CutOut, Blended]) {
         builder = builder.textures(textures);
+    }
+    if recipe.effects.has(History) {
+        builder = builder.binding(Binding::StorageBuffer).structs(&history::LAYOUTS);
     }
     if can_reorder(gpu) && recipe.divergence().is_ok() {
         builder = builder.define("REORDERING", 1);

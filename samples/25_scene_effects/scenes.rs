@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 23] = [
+pub const SCENES: [&str; 24] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -27,14 +27,15 @@ pub const SCENES: [&str; 23] = [
     "globes",
     "billiards",
     "rough gold",
+    "in motion",
     "everything",
     "file",
 ];
 
 /// Number of the scene at the start of the chapter.
-pub const EVERYTHING: u32 = 21;
+pub const EVERYTHING: u32 = 22;
 /// Number of the scene that `--scene` opens.
-pub const FILE: u32 = 22;
+pub const FILE: u32 = 23;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

@@ -9,7 +9,8 @@ use common::scene::{
 };
 use glam::Affine3A;
 
-use super::moving::{Back, Motion, moving, way};
+use super::back::Back;
+use super::moving::{Motion, moving, way};
 use super::scenes::Game;
 
 /// A pixel has 16 bits for its instance, and one number is the sky's.

@@ -3,6 +3,7 @@
 //! New since 11_path_tracing: light is followed from frame to frame on the surface it lies on, in `history.comp`;
 //! a filter that makes and loses none of it, in `filter.comp`; and motion, a function of the frame's number.
 
+mod back;
 mod done;
 #[path = "../14_animation/leg.rs"]
 mod leg;
@@ -21,6 +22,7 @@ mod turned;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use back::Back;
 use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
     barrier,
@@ -30,7 +32,7 @@ use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use done::{Done, Valid};
 use glam::UVec2;
 use levels::Levels;
-use moving::{Back, Motion};
+use moving::Motion;
 use passes::{Given, Passes, Show, Tests};
 use pixels::{PixelAddresses, Pixels};
 use scenes::{Game, SceneName, Sky, Staged};

@@ -6,8 +6,8 @@ use common::scene::{CameraBasis, SceneAddresses};
 use common::{Frame, Variant, Variants};
 use glam::Vec3;
 
+use super::back::Back;
 use super::levels::Levels;
-use super::moving::Back;
 use super::pixels::{Estimate, PixelAddresses, Pixels};
 
 common::shader_enum! {

@@ -30,6 +30,7 @@
 #define EFFECT_ANTI_ALIASING
 #define EFFECT_DEPTH_OF_FIELD
 #define EFFECT_MOTION_BLUR
+#define EFFECT_HISTORY
 #endif
 
 // Needed by several effects.
@@ -62,8 +63,9 @@
 #if defined(EFFECT_EMITTERS) && defined(RANDOM_DIRECTIONS)
 #define CHANCES
 #endif
-// Surfaces that rays leave again: only there does it matter where exactly a ray starts.
-#if defined(SHADOW_RAYS) || defined(PATHS)
+// Surfaces that rays leave again: only there does it matter where exactly a ray starts. History compares what such
+// surfaces report.
+#if defined(SHADOW_RAYS) || defined(PATHS) || defined(EFFECT_HISTORY)
 #define DEPARTURES
 #endif
 // Triangles that stand for a round surface: a shadow ray leaves that.

@@ -29,4 +29,7 @@ void main() {
 #ifdef CURVES
     hit.curvature = 0.0;
 #endif
+#ifdef EFFECT_HISTORY
+    hit.surface = SURFACE_GROUND << 16 | 255u;
+#endif
 }

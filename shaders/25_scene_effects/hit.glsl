@@ -30,11 +30,21 @@ struct Hit {
 #ifdef TOLD_CONES
     vec2 cone;        // in: the ray's width and spread. Out, in x: the part that lines cover
 #endif
-};                    // 44 to 96 bytes
+#ifdef EFFECT_HISTORY
+    uint surface;     // which it is, from the top: 16 bits; 8 that are 0; and how much it bends, 8 bits
+#endif
+};                    // 44 to 100 bytes
 
 // The ground and the plane are made of nothing that is in the list of materials.
 const uint MATERIAL_GROUND = -2;
 const uint MATERIAL_PLANE = -1;
+
+#ifdef EFFECT_HISTORY
+// The surfaces of history that are not placed meshes: shapes from here on, the ground and the plane.
+const uint SURFACE_SHAPE = 0x8000;
+const uint SURFACE_GROUND = 0xfffd;
+const uint SURFACE_PLANE = 0xfffe;
+#endif
 
 // The number of a surface whose light no shadow ray samples.
 const uint NO_EMITTER = -1;

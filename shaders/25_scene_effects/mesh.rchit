@@ -14,6 +14,10 @@
 #ifdef EFFECT_WIREFRAME
 #include "lines.glsl"
 #endif
+#ifdef EFFECT_HISTORY
+#include "common/bend.glsl"
+#include "common/seen.glsl"
+#endif
 
 #if defined(EFFECT_TEXTURES) || defined(EFFECT_NORMAL_MAPS)
 layout(set = 1, binding = 0) uniform sampler2D textures[];
@@ -170,6 +174,9 @@ void main() {
 #endif
 #ifdef CURVES
     hit.curvature = curvature(instance, triangle);
+#endif
+#ifdef EFFECT_HISTORY
+    hit.surface = packed_rest(gl_InstanceCustomIndexEXT & 0x7fffu, 0, bend(instance, triangle));
 #endif
 #ifdef FINISHES
     Finish finish = finish_of(instance.material);

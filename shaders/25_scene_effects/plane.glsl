@@ -44,5 +44,8 @@ Hit hit_of_plane(Ray ray, float t) {
 #ifdef CURVES
     hit.curvature = 0.0;
 #endif
+#ifdef EFFECT_HISTORY
+    hit.surface = SURFACE_PLANE << 16;
+#endif
     return hit;
 }

@@ -35,6 +35,10 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #ifdef CURVES
     hit.curvature = curvature;
 #endif
+#ifdef EFFECT_HISTORY
+    // How far a curved shape bends within a pixel is not known here: as far as can be.
+    hit.surface = (SURFACE_SHAPE | gl_PrimitiveID & 0x3fffu) << 16 | (curvature == 0.0 ? 0u : 255u);
+#endif
 #ifdef TOLD_CONES
     hit.cone = vec2(0.0);
 #endif

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compute.glsl"
 #include "common/scene.glsl"
-#include "pixels.glsl"
+#include "common/seen.glsl"
 #include "views.glsl"
 
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2D picture;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compute.glsl"
-#include "pixels.glsl"
+#include "common/seen.glsl"
 #include "alike.glsl"
 
 layout(push_constant, scalar) uniform Filter {

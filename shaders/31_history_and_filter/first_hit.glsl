@@ -1,21 +1,5 @@
 // The first hit of a path: the surface whose light is kept from frame to frame.
-
-// The sine of the largest angle between a triangle and the normals of its corners: 0 where the surface is flat. It is
-// that of the mesh's own space, so an instance may be turned and enlarged, but not stretched.
-float bend(Hit hit) {
-    InstanceRecord instance = push.scene.instances.at[hit.instance];
-    uvec3 corner = instance.triangles.at[hit.triangle];
-    Vertex a = instance.vertices.at[corner.x];
-    Vertex b = instance.vertices.at[corner.y];
-    Vertex c = instance.vertices.at[corner.z];
-    vec3 face = normalize(cross(b.position - a.position, c.position - a.position));
-    float most = 0.0;
-    for (uint i = 0; i < 3; i++) {
-        vec3 normal = normalize(instance.vertices.at[corner[i]].normal);
-        most = max(most, length(cross(face, normal)));
-    }
-    return min(most, 1.0);
-}
+#include "common/bend.glsl"
 
 // ANCHOR: reflectance
 // The part of its light that a surface sends on, about: what is left varies slowly. Any colour would do that is the
@@ -36,7 +20,8 @@ vec3 see(uint index, Hit hit, vec3 direction) {
     Seen surface;
     surface.position = is_sky ? vec3(0.0) : hit.position;
     surface.normal = packed(is_sky ? -direction : hit.normal);
-    surface.rest = is_sky ? packed_rest(NOTHING, 1, 0.0) : packed_rest(hit.instance, 1, bend(hit));
+    surface.rest = is_sky ? packed_rest(NOTHING, 1, 0.0)
+        : packed_rest(hit.instance, 1, bend(push.scene.instances.at[hit.instance], hit.triangle));
     push.pixels.surfaces.at[index] = surface;
     uint stored = packed_color(color);
     push.pixels.colors.at[index] = stored;

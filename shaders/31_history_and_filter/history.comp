@@ -2,11 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compute.glsl"
 #include "common/camera.glsl"
-#include "pixels.glsl"
-#include "reproject.glsl"
-#include "same_surface.glsl"
+#include "common/seen.glsl"
+#include "common/past_light.glsl"
 #include "views.glsl"
 
+layout(constant_id = 3) const bool INSTANCE_TEST = true;
+layout(constant_id = 4) const bool PLANE_TEST = true;
+layout(constant_id = 5) const bool NORMAL_TEST = true;
 layout(constant_id = 6) const bool FOLLOW = true;
 
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2D picture;
@@ -18,61 +20,6 @@ layout(push_constant, scalar) uniform History {
     uint memory;             // the longest history, in frames
     float rounding;          // a bound on the error of a distance between two points of the scene
 } push;
-
-// The sum over four pixels of the last frame.
-struct Found {
-    Estimate estimate;
-    float frames;              // in their histories
-    float weight;
-    float refused[REASONS];    // the weight of the pixels that do not count, by reason
-};
-
-// ANCHOR: take
-// Takes over a pixel of the last frame, with a weight. Only differences are added: equal light stays equal to the bit.
-void take(inout Found found, uint index, Seen tap, float weight) {
-    Estimate estimate = push.pixels.last_estimates.at[index];
-    if (found.weight == 0.0) {
-        found.estimate = estimate;
-    }
-    found.weight += weight;
-    float part = weight / found.weight;
-    found.estimate.light += part * (estimate.light - found.estimate.light);
-    found.estimate.square += part * (estimate.square - found.estimate.square);
-    found.frames += part * (float(length_of(tap)) - found.frames);
-}
-// ANCHOR_END: take
-
-// ANCHOR: find
-// The light that the last frame knew of a surface, which was at a point of its picture.
-Found find(Seen here, vec3 normal, vec2 point) {
-    Found found = Found(Estimate(vec3(0.0), 0.0), 0.0, 0.0, float[](0.0, 0.0, 0.0, 0.0, 0.0));
-    vec2 corner = floor(point - 0.5);
-    vec2 part = point - 0.5 - corner;
-    for (uint i = 0; i < 4; i++) {
-        uvec2 step = uvec2(i & 1u, i >> 1u);
-        ivec2 at = ivec2(corner) + ivec2(step);
-        vec2 sides = mix(1.0 - part, part, bvec2(step));
-        float weight = sides.x * sides.y;
-        if (weight == 0.0) {
-            continue;
-        }
-        uint why = OUTSIDE;
-        if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(push.pixels.size)))) {
-            uint index = uint(at.y) * push.pixels.size.x + uint(at.x);
-            Seen tap = push.pixels.last_surfaces.at[index];
-            vec2 reach = vec2(
-                footprint(push.camera, push.pixels.size, here.position, normal),
-                footprint(push.camera, push.pixels.size, tap.position, unpacked(tap.normal)));
-            why = reason(here, normal, tap, reach, push.rounding);
-            if (why == KEPT) {
-                take(found, index, tap, weight);
-            }
-        }
-        found.refused[why] += weight;
-    }
-    return found;
-}
-// ANCHOR_END: find
 
 // Grey where the history goes on; otherwise a colour for each reason.
 vec3 painted(Found found, bool begins) {
@@ -107,9 +54,10 @@ void main() {
             point = vec2(-2.0);    // behind the camera: outside the picture
         }
         // ANCHOR_END: before
-        Found found = Found(Estimate(vec3(0.0), 0.0), 0.0, 0.0, float[](0.0, 0.0, 0.0, 0.0, 0.0));
+        Found found = nothing_found();
         if (!begins) {
-            found = find(before, normal, point);
+            Tests tests = Tests(INSTANCE_TEST, PLANE_TEST, NORMAL_TEST);
+            found = find(push.pixels, push.camera, before, normal, point, push.rounding, tests);
         }
         // ANCHOR: mean
         if (found.weight > 0.0) {

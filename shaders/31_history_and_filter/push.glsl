@@ -3,7 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/disk.glsl"
-#include "pixels.glsl"
+#include "common/seen.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

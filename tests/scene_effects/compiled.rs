@@ -1,11 +1,9 @@
 //! A GPU compiler's estimates for each scene's pipeline, compared with the pipeline that has everything.
 
-use common::gpu::ShaderEnum;
-use effects::Effect;
 use run::{compiled_for, expected, set_arguments};
 use serde_json::{Map, Value};
 
-use super::{NAME, SCENES};
+use super::{NAME, SCENES, STILL};
 
 /// The estimates of a pipeline for one family; the pipeline is one program.
 #[derive(Debug, PartialEq)]
@@ -57,8 +55,8 @@ fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
 
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
-/// The largest number of registers spilled by the program with everything: 92 to 98 with Mesa 25.0.7, in three
-/// families. With the normal of a torus as an attribute of the hit it was 99 to 107; with a trace for each kind of
+/// The largest number of registers spilled by the program with everything: 97 to 103 with Mesa 25.0.7, in
+/// three families. Without history it was 92 to 98; with the normal of a torus as an attribute of the hit it was 99 to 107; with a trace for each kind of
 /// sampled light instead of one in a loop, 176 to 189; without rough metal, whose surface is 21 numbers that are alive
 /// while shadow rays are traced, 38 to 51.
 const SPILLED: u64 = 106;
@@ -73,8 +71,8 @@ fn each_scene_is_one_program_that_fits_its_registers_and_is_no_larger_than_that_
             let everything = Figures::of(&everything, family);
             let own = Figures::of(&own, family);
             println!("{scene}, {family}: {own:?}");
-            // With all effects, the two differ in one constant, and a compiler's schedule is not monotonic.
-            let all = effects.len() == Effect::ALL.len();
+            // With all effects but one, the two differ little, and a compiler's schedule is not monotonic.
+            let all = effects.len() == STILL.len();
             assert!(own.spilled == 0 || all, "{scene}, {family}: {own:?}");
             // While a strand is intersected, the whole path state and payload are alive.
             assert!(own.spilled.max(everything.spilled) <= SPILLED, "{family}: {everything:?}");

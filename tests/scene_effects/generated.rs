@@ -209,6 +209,9 @@ fn text(set: Effects, random: &mut Random) -> String {
     );
     let (x, y) = (n(-1.5, 1.5), n(1.2, 2.4));
     text += &format!("[camera]\neye = [{x}, {y}, 7]\ntarget = [0, 0.6, 0]\nfield_of_view = 48\n");
+    if has(History) {
+        text += &format!("orbit = {}\n", n(-40.0, 40.0));
+    }
     if has(DepthOfField) {
         text += &format!("lens = {{ diameter = {}, blades = 6 }}\n", n(0.05, 0.3));
     }
@@ -322,6 +325,10 @@ fn text(set: Effects, random: &mut Random) -> String {
                     n(-2.0, 1.5),
                     n(-40.0, 40.0)
                 );
+                if has(History) && material != "lamp" {
+                    text +=
+                        &format!("way = [{}, 0.3, 0.1]\nspin = {}\n", n(-2.0, 2.0), n(-90.0, 90.0));
+                }
                 if !material.is_empty() {
                     text += &format!("material = \"{material}\"\n");
                 }

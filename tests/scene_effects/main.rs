@@ -4,6 +4,7 @@ mod alpha;
 mod compiled;
 mod departures;
 mod generated;
+mod history;
 mod light;
 mod lines;
 mod normals;
@@ -30,7 +31,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects of each, and the stages, listed by hand. Every pipeline has
 /// `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 22] = [
+const SCENES: [(&str, &[Effect], &[&str]); 23] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -124,8 +125,19 @@ const SCENES: [(&str, &[Effect], &[&str]); 22] = [
         &[Triangles, RoughMetal, Bounces, Environment, AntiAliasing],
         &["common/shadow.rmiss", "mesh.rchit"],
     ),
-    ("everything", Effect::ALL, &EVERY_STAGE),
+    (
+        "in motion",
+        &[Triangles, DirectionalShadows, AreaLight, Bounces, History],
+        &["common/shadow.rmiss", "mesh.rchit"],
+    ),
+    ("everything", STILL, &EVERY_STAGE),
 ];
+
+/// The effects of a scene that does not move: all but the last.
+const STILL: &[Effect] = match Effect::ALL.split_last() {
+    Some((History, still)) => still,
+    _ => panic!("the last effect is history"),
+};
 
 const EVERY_STAGE: [&str; 14] = [
     "common/shadow.rmiss",
@@ -211,10 +223,10 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
     // Position, distance, normal, material and colour; the start of new rays, height and face; the offset to
-    // the round surface; roughness and metalness from textures; the body it came into; the emitter; its curvature; and the ray's cone. A shadow ray
-    // has its own payload, a bool.
+    // the round surface; roughness and metalness from textures; the body it came into; the emitter; its curvature; the
+    // ray's cone; and the surface whose light is kept. A shadow ray has its own payload, a bool.
     let cones = effects.has_any(&[Plane, Heightfield, Wireframe, FilteredTextures]);
-    let leaves = shadows || effects.has_any(&[Mirror, RoughMetal, Bounces, Glass]);
+    let leaves = shadows || effects.has_any(&[Mirror, RoughMetal, Bounces, Glass, History]);
     let payload = 11
         + 4 * usize::from(leaves)
         + 3 * usize::from(lifts && effects.has(Triangles))
@@ -222,7 +234,8 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         + usize::from(effects.has(Glass))
         + usize::from(effects.has(Emitters) && effects.has_any(&[RoughMetal, Bounces]))
         + usize::from(cones && effects.has_any(&[Mirror, RoughMetal, Glass]))
-        + 2 * usize::from(effects.has_any(&[Wireframe, FilteredTextures]));
+        + 2 * usize::from(effects.has_any(&[Wireframe, FilteredTextures]))
+        + usize::from(effects.has(History));
     for stage in stages {
         let path = stage["path"].as_str().unwrap();
         let floats = match path.rsplit_once('/').unwrap().1 {
@@ -248,7 +261,9 @@ fn the_picture_is_the_golden_one() {
 #[test]
 fn every_scene_has_its_stages_and_looks_the_same_with_all_of_them() {
     for (name, effects, stages) in SCENES {
-        let own = same_by_both("96x60", &["--set", &format!("scene={name}")]);
+        // The first frame has no history.
+        let frames = if effects.contains(&History) { "3" } else { "1" };
+        let own = same_by_both("96x60", &["--set", &format!("scene={name}"), "--frames", frames]);
         check_stages(&own.report, set_of(effects), stages, name);
         let found = own.report["chapter"]["effects"].as_array().unwrap();
         let whys: Vec<&str> = found.iter().map(|found| found["why"].as_str().unwrap()).collect();
@@ -264,12 +279,14 @@ fn every_scene_has_its_stages_and_looks_the_same_with_all_of_them() {
 #[test]
 #[ignore = "nightly: a pipeline for each effect; quick: taking_out_what_is_needed_changes_the_picture"]
 fn taking_out_any_effect_changes_the_picture() {
-    check_needed(Effect::ALL.iter().copied());
+    check_needed(STILL.iter().copied());
+    history::check_needed();
 }
 
 #[test]
 fn taking_out_what_is_needed_changes_the_picture() {
-    check_needed(Effect::ALL.iter().copied().step_by(8));
+    check_needed(STILL.iter().copied().step_by(8));
+    history::check_needed();
 }
 
 fn check_needed(effects: impl Iterator<Item = Effect>) {
@@ -281,7 +298,7 @@ fn check_needed(effects: impl Iterator<Item = Effect>) {
         let differ = pairs.filter(|(a, b)| a != b).count();
         println!("without {}: {differ} pixels differ", effect.name());
         assert!(differ > 8, "without {}: {differ} pixels differ", effect.name());
-        let kept = Effects::everything().without(effect);
+        let kept = set_of(STILL).without(effect);
         assert_eq!(without.report["chapter"]["pipeline"]["effects"], json!(kept.names()));
     }
 }
@@ -310,7 +327,8 @@ fn check_generated(sets: &[Effects], random: &mut Random) {
         let file = generated::write(folder.path(), &number.to_string(), set, random);
         let scene = effects::open(&file).unwrap_or_else(|error| panic!("{error:#}"));
         assert_eq!(needed(&findings(&scene)).names(), set.names(), "{number}");
-        let own = same_by_both("64x40", &["--scene", file.to_str().unwrap()]);
+        let frames = if set.has(History) { "3" } else { "1" };
+        let own = same_by_both("64x40", &["--scene", file.to_str().unwrap(), "--frames", frames]);
         assert_eq!(own.report["chapter"]["pipeline"]["effects"], json!(set.names()), "{number}");
     }
 }

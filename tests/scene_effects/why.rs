@@ -19,7 +19,7 @@ fn every_effect_has_a_line_with_its_reason() {
     let (out, err) =
         (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{out}{err}");
-    assert!(out.contains("\n1 of 27 effects, this scene's own pipeline: "), "{out}");
+    assert!(out.contains("\n1 of 28 effects, this scene's own pipeline: "), "{out}");
     for &effect in Effect::ALL {
         let sign = if effect == Effect::Spheres { "✓" } else { "✗" };
         let start = format!("{sign}  {} ", effect.name());

@@ -25,7 +25,7 @@ pub use mesh::{Mesh, REACH, Vertex};
 pub use meshes::triangle_order;
 pub use placement::{Moved, Placement, Size};
 pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
-pub use top_level::build_top;
+pub use top_level::{build_top, build_updatable_top};
 pub use upload::{
     SceneOnGpu, SceneOptions, boxes_on_gpu, input_usage, instance_bytes, instance_on_gpu, transform,
 };

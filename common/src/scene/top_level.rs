@@ -39,6 +39,25 @@ pub fn build_top(
     gpu: &Gpu,
     instances: &[vk::AccelerationStructureInstanceKHR],
 ) -> Result<AccelerationStructure> {
+    build(gpu, instances, BuildOptions::default())
+}
+
+/// As [`build_top`], for a top level that [`AccelerationStructure::update`] may change.
+///
+/// # Errors
+/// As [`build_top`].
+pub fn build_updatable_top(
+    gpu: &Gpu,
+    instances: &[vk::AccelerationStructureInstanceKHR],
+) -> Result<AccelerationStructure> {
+    build(gpu, instances, BuildOptions { updatable: true, ..BuildOptions::default() })
+}
+
+fn build(
+    gpu: &Gpu,
+    instances: &[vk::AccelerationStructureInstanceKHR],
+    options: BuildOptions,
+) -> Result<AccelerationStructure> {
     let hidden =
         instances.iter().filter(|i| i.instance_custom_index_and_mask.high_8() == 0).count();
     let line =
@@ -78,8 +97,7 @@ pub fn build_top(
     let bytes: Vec<_> = instances.iter().map(instance_bytes).collect();
     let buffer = Buffer::with_data(gpu, "instances", &bytes, input_usage())?;
     let count = instances.len() as u32;
-    let mut top =
-        AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())?;
+    let mut top = AccelerationStructure::top(gpu, "top level", &buffer, count, options)?;
     gpu.note_asked(&asked);
     top.asked = asked;
     top.keep(below.into_values().collect());

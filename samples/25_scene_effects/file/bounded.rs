@@ -270,6 +270,11 @@ pub fn samples<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 1, 64)
 }
 
+/// Frames of an animation.
+pub fn frames<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    whole(from, 2, 3600)
+}
+
 /// Reflections and refractions of a path.
 pub fn depth<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 32)

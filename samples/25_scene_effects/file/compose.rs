@@ -23,8 +23,8 @@ use super::source::Source;
 use crate::composition::{close, pinhole};
 use crate::normal_maps::own_map;
 use crate::{
-    Box, Composition, Environment, Finish, MAX_LIGHTS, NORMAL_MAPS, Node, SKIES, Sphere, Strands,
-    ThinLens, Torus, is_blended, is_body, is_glass,
+    Box, Composition, Environment, Finish, MAX_LIGHTS, Motion, NORMAL_MAPS, Node, SKIES, Sphere,
+    Strands, ThinLens, Torus, Way, is_blended, is_body, is_glass,
 };
 
 /// Pieces, shapes of each kind, and materials, each.
@@ -66,7 +66,18 @@ impl Description {
         if let Some(LensTable { diameter, focus, blades }) = view.lens {
             lens = ThinLens { diameter, focus: focus.unwrap_or(lens.focus), blades, ..lens };
         }
-        let instances = self.instances(&model, &materials, source)?;
+        let mut ways = Vec::new();
+        let instances = self.instances(&model, &materials, source, &mut ways)?;
+        let moves = !ways.is_empty() || view.orbit != 0.0;
+        if moves && instances.len() > Motion::MOST {
+            let what = format!("a scene that moves has at most {} placed meshes", Motion::MOST);
+            return Err(source.error(self.camera.span().start, &what));
+        }
+        let motion = moves.then_some(Motion {
+            frames: self.picture.frames,
+            pieces: ways,
+            orbit: view.orbit,
+        });
         let bodies = instances.iter().filter(|placed| is_body(&model.materials[placed.material]));
         let bodies: HashSet<usize> = bodies.map(|placed| placed.mesh).collect();
         let turned = turn_outwards(&mut model.meshes, |mesh| bodies.contains(&mesh), &shown(path));
@@ -100,6 +111,7 @@ impl Description {
             light_samples: self.picture.light_samples,
             depth: self.picture.depth,
             bounces: self.picture.bounces,
+            motion,
             scene: Scene { model, instances, camera },
         };
         self.add_shapes(&mut composition, &materials, source)?;
@@ -226,11 +238,12 @@ impl Description {
         model: &Model,
         materials: &Numbers,
         source: &Source,
+        ways: &mut Vec<Way>,
     ) -> Result<Vec<Instance>> {
         if self.piece.is_empty() && self.position.is_none() {
             return Ok(standing(model));
         }
-        let mut instances = place(&self.piece, model, materials, source)?;
+        let mut instances = place(&self.piece, model, materials, source, ways)?;
         if let Some(position) = &self.position {
             place_position(model, position.get_ref(), &mut instances)
                 .map_err(|error| source.error(position.span().start, &error.to_string()))?;
@@ -345,6 +358,7 @@ fn place(
     model: &Model,
     materials: &Numbers,
     source: &Source,
+    ways: &mut Vec<Way>,
 ) -> Result<Vec<Instance>> {
     // An object of several materials is several meshes of its name.
     let mut meshes: HashMap<&str, Vec<usize>> = HashMap::new();
@@ -354,7 +368,7 @@ fn place(
     let reaches: Vec<f32> = model.meshes.iter().map(Mesh::reach).collect();
     let mut placed = Vec::new();
     for piece in pieces {
-        let PieceTable { mesh, at, turn, size, material } = piece.get_ref();
+        let PieceTable { mesh, at, turn, size, material, way, spin } = piece.get_ref();
         let wrong = |what: &str| source.error(mesh.span().start, what);
         let name = mesh.get_ref();
         if model.ambiguous.contains(name) {
@@ -382,10 +396,16 @@ fn place(
         }
         let matrix3 = Mat3A::from_rotation_y(turn.to_radians()) * *size;
         let transform = Affine3A { matrix3, translation: (*at).into() };
-        placed.extend(parts.iter().map(|&mesh| {
+        for &mesh in parts {
             let material = material.unwrap_or(model.meshes[mesh].material);
-            Instance { mesh, transform, material, record_offset: 0 }
-        }));
+            if *way != Vec3::ZERO || *spin != 0.0 {
+                if model.materials[material].emission != Vec3::ZERO {
+                    return Err(wrong("a piece that moves does not shine"));
+                }
+                ways.push(Way { instance: placed.len(), home: transform, way: *way, spin: *spin });
+            }
+            placed.push(Instance { mesh, transform, material, record_offset: 0 });
+        }
     }
     Ok(placed)
 }

@@ -88,11 +88,13 @@ pub(super) struct PictureTable {
     #[serde(deserialize_with = "bounded::bounces")]
     pub(super) bounces: u32,
     pub(super) filtered: bool,
+    #[serde(deserialize_with = "bounded::frames")]
+    pub(super) frames: u32,
 }
 
 impl Default for PictureTable {
     fn default() -> Self {
-        Self { samples: 1, light_samples: 16, depth: 4, bounces: 0, filtered: false }
+        Self { samples: 1, light_samples: 16, depth: 4, bounces: 0, filtered: false, frames: 120 }
     }
 }
 
@@ -106,6 +108,8 @@ pub(super) struct CameraTable {
     #[serde(deserialize_with = "bounded::view")]
     pub(super) field_of_view: f64,
     pub(super) lens: Option<LensTable>,
+    #[serde(default, deserialize_with = "bounded::degrees")]
+    pub(super) orbit: f32,
 }
 
 #[derive(Deserialize)]
@@ -199,6 +203,10 @@ pub(super) struct PieceTable {
     #[serde(default = "one", deserialize_with = "bounded::length")]
     pub(super) size: f32,
     pub(super) material: Option<Spanned<String>>,
+    #[serde(default, deserialize_with = "bounded::point")]
+    pub(super) way: Vec3,
+    #[serde(default, deserialize_with = "bounded::degrees")]
+    pub(super) spin: f32,
 }
 
 fn one() -> f32 {

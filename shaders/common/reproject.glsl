@@ -1,3 +1,5 @@
+// Taught by 31_history_and_filter.
+//
 // The place of a surface in the last frame's picture.
 #include "common/project.glsl"
 

@@ -1,3 +1,5 @@
+// Taught by 31_history_and_filter.
+//
 // The state of a pixel, 92 bytes: two surfaces, two estimates, a colour, and an estimate for the filter.
 #include "common/octahedron.glsl"
 
