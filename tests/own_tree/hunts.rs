@@ -204,7 +204,7 @@ const RAYS_A_SCENE: usize = 833_334;
 fn the_table_of_what_is_lost() {
     let mut rungs = Vec::new();
     for triangles in [MOELLER, WATERTIGHT, TWO_FLOAT] {
-        rungs.extend((BARE..=EXACT).map(|boxes| Rungs { boxes, triangles, quantised: false }));
+        rungs.extend((BARE..=EXACT).map(|boxes| Rungs { boxes, triangles, ..BEST }));
     }
     let counts = hunt(&rungs, RAYS_A_SCENE, 7, Arithmetic::Driver);
     let triangles = ["moeller", "watertight", "two-float"];
