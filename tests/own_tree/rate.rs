@@ -214,7 +214,7 @@ fn words_of_64_bits_change_no_answer() {
 }
 
 #[test]
-#[ignore = "nightly: builds a tree over a million triangles; quick: words_of_64_bits_change_no_answer"]
+#[ignore = "nightly: builds a tree over a million triangles; quick: rate::words_of_64_bits_change_no_answer"]
 fn nor_do_they_in_a_large_landscape() {
     compare_words(landscape(708));
 }
