@@ -128,6 +128,9 @@ fn what_cannot_be_set_on_the_way() {
     let two = ["--scene", "samples/assets/chess.obj", "--then", "0:scene=chess"];
     let (code, line) = run::refused("31_history_and_filter", &[&["--headless"][..], &two].concat());
     assert!(code == 2 && line.contains("are two scenes"), "{line}");
+    let two = ["--sky", "samples/assets/evening.exr", "--set", "sky=day"];
+    let (code, line) = run::refused("46_environment", &[&["--headless"][..], &two].concat());
+    assert!(code == 2 && line.contains("\"sky=day\" are two skies"), "{line}");
     let (code, line) = run::refused("01_foundation", &["--headless", "--then", "0:a=1"]);
     assert!(code == 2 && line.contains("--then works from 02 on"), "{line}");
 }

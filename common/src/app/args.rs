@@ -104,18 +104,24 @@ impl Args {
         GpuOptions { requirements, device, validate, ..GpuOptions::default() }
     }
 
-    /// Fails if a file and a control both name the scene: one of them would be ignored.
-    fn one_scene(&self) -> Result<(), UsageError> {
+    /// Fails if a file and a control both name the scene, or the sky: one of them would be ignored.
+    fn named_once(&self) -> Result<(), UsageError> {
         let then = self.then.iter().map(|(_, set)| ("--then", set));
-        let mut sets = self.sets.iter().map(|set| ("--set", set)).chain(then);
-        let set = sets.find(|(_, (name, value))| name == "scene" && value != "file");
-        match (&self.scene, set) {
-            (Some(file), Some((option, (_, chosen)))) => Err(UsageError(format!(
-                "--scene {} and {option} \"scene={chosen}\" are two scenes; leave one of them out",
-                file.display()
-            ))),
-            _ => Ok(()),
+        let sets = self.sets.iter().map(|set| ("--set", set)).chain(then);
+        for (option, (name, value)) in sets {
+            let (file, many) = match name.as_str() {
+                "scene" => (&self.scene, "scenes"),
+                "sky" => (&self.sky, "skies"),
+                _ => continue,
+            };
+            if let Some(file) = file.as_ref().filter(|_| value != "file") {
+                return Err(UsageError(format!(
+                    "--{name} {} and {option} \"{name}={value}\" are two {many}; leave one of them out",
+                    file.display()
+                )));
+            }
         }
+        Ok(())
     }
 
     /// Parses the process's arguments, with the options that `more` adds.
@@ -141,7 +147,7 @@ impl Args {
             Ok((args, matches))
         });
         let (args, matches) = parsed.map_err(|error| usage_error(&error))?;
-        args.one_scene()?;
+        args.named_once()?;
         Ok((args, matches))
     }
 }

@@ -58,7 +58,7 @@ impl ExrFile {
     pub fn decode(bytes: &[u8], name: &str) -> Result<Self> {
         ensure!(
             bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]),
-            "{name}: is not an EXR file; save it as .exr, because 8 bits per channel cannot hold all light"
+            "{name}: this is not an EXR file; save it as .exr, because 8 bits per channel cannot hold all light"
         );
         let broken = |error: exr::error::Error| match error {
             exr::error::Error::NotSupported(what) => {
