@@ -91,7 +91,7 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::compute().textures()
+        Requirements::compute().textures().int64_where_offered()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
@@ -178,5 +178,6 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .textures(textures)
         .push_constants::<Push>()
         .rounding_to_nearest_even(gpu)
+        .int64(gpu)
         .build_compute(gpu)
 }

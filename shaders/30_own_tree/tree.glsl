@@ -44,6 +44,30 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pac
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer AllCorners { Corners at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer AllPlaced { Placed at[]; };
 
+#ifdef INT64
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+// The 64 bytes of a node as eight words. llvmpipe fetches a structure number by number, each for all its rays
+// together, and a number of 64 bits takes it no longer than one of 32.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer NodeWords { uint64_t at[][8]; };
+
+// The child whose four words begin at `at`: low.x and low.y, low.z and first, high.x and high.y, high.z and count.
+Child child_of(uint64_t words[8], uint at) {
+    uvec2 a = unpackUint2x32(words[at]), b = unpackUint2x32(words[at + 1]);
+    uvec2 c = unpackUint2x32(words[at + 2]), d = unpackUint2x32(words[at + 3]);
+    return Child(uintBitsToFloat(uvec3(a, b.x)), b.y, uintBitsToFloat(uvec3(c, d.x)), d.y);
+}
+
+Node node_at(Nodes nodes, uint index) {
+    uint64_t words[8] = NodeWords(nodes).at[index];
+    return Node(Child[2](child_of(words, 0), child_of(words, 4)));
+}
+#else
+Node node_at(Nodes nodes, uint index) {
+    return nodes.at[index];
+}
+#endif
+
 // Everything that a walk reads. The root of the top tree is node 0.
 struct Trees {
     Nodes nodes;

@@ -73,7 +73,7 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
         // ANCHOR: node
         // Two nodes per turn, because most entries are nodes.
         for (uint step = 0; step < 2 && entry <= FIRST_MASK; step++) {
-            Node node = QUANTISED ? unpacked(trees.packed.at[entry]) : trees.nodes.at[entry];
+            Node node = QUANTISED ? unpacked(trees.packed.at[entry]) : node_at(trees.nodes, entry);
             met.boxes++;
             visit(trees, node, inside);
             float a = entered(ray, node.children[0], met.t);

@@ -132,3 +132,51 @@ fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
 }
 
 const CASE: &str = "planet_6deg";
+
+/// The sphere's cases with all lengths multiplied by a number, and so t, too. A direction of another length has cases of
+/// its own.
+fn resized(by: f64) -> Value {
+    let text = std::fs::read_to_string(run::root().join(FILE)).expect("the cases");
+    let mut all: Value = serde_json::from_str(&text).expect("JSON");
+    let list = all["cases"].as_array_mut().expect("cases");
+    let family = |case: &Value| case["family"].as_str().unwrap_or_default().to_owned();
+    list.retain(|case| case["primitive"] == "sphere" && !family(case).starts_with("dir-scale"));
+    let scaled = |number: &Value| Value::from(by * number.as_f64().expect("a number"));
+    for case in list {
+        for (of, key) in [("ray", "tmin"), ("shape", "radius")] {
+            case[of][key] = scaled(&case[of][key]);
+        }
+        for (of, key) in [("ray", "origin"), ("shape", "center")] {
+            case[of][key].as_array_mut().expect("a vector").iter_mut().for_each(|x| *x = scaled(x));
+        }
+        if let Some(t) = case["expect"]["t"].as_str() {
+            let t: f64 = t.parse().expect("a decimal");
+            case["expect"]["t"] = format!("{:e}", by * t).into();
+        }
+    }
+    all
+}
+
+/// Where squares underflow or overflow, a sphere in 32 bits is missed
+/// (<https://github.com/aardvark-platform/aardvark.base/issues/127>); in two floats it is scaled first.
+#[test]
+fn spheres_of_1e_30_and_of_1e19_are_right_in_two_floats() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut table = Table::new();
+    for (name, exponent) in [("small", -100), ("large", 64)] {
+        let file = folder.path().join("resized.json");
+        std::fs::write(&file, resized(2f64.powi(exponent)).to_string()).expect("it is written");
+        let file = file.to_str().expect("a plain name");
+        let output = crate::laboratory(&["--cases", file, "--report", "-"]);
+        let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+        let rows = report["rungs"].as_array().expect("rungs").iter();
+        for row in rows.filter(|row| is_own(row) && row.get("unavailable").is_none()) {
+            println!("{name} {}: {} of {}", row["rung"], row["right"], row["cases"]);
+            table.insert(format!("{name}.{}", text(row, "rung")), row["right"].clone());
+            table.insert("cases".to_owned(), row["cases"].clone());
+        }
+        assert_eq!(table[&format!("{name}.S4")], table["cases"], "{name}");
+        assert!(table[&format!("{name}.S2")].as_u64() < Some(10), "{name} is not hard");
+    }
+    expected::hold("24_accuracy/sizes", table.into());
+}

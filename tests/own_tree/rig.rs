@@ -70,6 +70,8 @@ pub struct Rungs {
     pub boxes: u32,
     pub triangles: u32,
     pub quantised: bool,
+    /// True if nodes are read in 64-bit words where the device can.
+    pub words: bool,
 }
 
 pub const BARE: u32 = 0;
@@ -79,8 +81,10 @@ pub const MOELLER: u32 = 0;
 pub const WATERTIGHT: u32 = 1;
 pub const TWO_FLOAT: u32 = 2;
 
-pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false };
+pub const BEST: Rungs =
+    Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false, words: true };
 pub const PACKED: Rungs = Rungs { quantised: true, ..BEST };
+pub const SINGLE: Rungs = Rungs { words: false, ..BEST };
 
 /// The processor time of this process's threads, in seconds.
 fn worked() -> f64 {
@@ -130,7 +134,7 @@ impl Rig {
             };
             Gpu::new(&options)
         };
-        let requirements = || Requirements::ray_tracing().textures();
+        let requirements = || Requirements::ray_tracing().textures().int64_where_offered();
         let with_queries = if beside { device(requirements().ray_query()).ok() } else { None };
         let queries = with_queries.is_some();
         let gpu =
@@ -155,7 +159,7 @@ impl Rig {
         };
         let most = self.gpu.limits.core.max_compute_work_group_invocations;
         let computed = || {
-            ComputePipeline::builder(NAME)
+            let walk = ComputePipeline::builder(NAME)
                 .compute(RAYS)
                 .workgroup(4, [WORKGROUP.min(most), 1])
                 .constant(1, rungs.boxes)
@@ -163,7 +167,8 @@ impl Rig {
                 .constant(3, self.own.trees.stack)
                 .constant(6, u32::from(rungs.quantised))
                 .push_constants::<Launch>()
-                .rounding_to_nearest_even(&self.gpu)
+                .rounding_to_nearest_even(&self.gpu);
+            if rungs.words { walk.int64(&self.gpu) } else { walk }
         };
         let way = match by {
             By::Walk => computed().build_compute(&self.gpu).map(Way::Computed),

@@ -158,6 +158,13 @@ impl Requirements {
         self
     }
 
+    /// 64-bit integers in shaders, if the device supports them: see
+    /// [`PipelineBuilder::int64`](crate::gpu::PipelineBuilder::int64).
+    pub fn int64_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(None, "shaderInt64", core.shader_int64));
+        self
+    }
+
     /// A product and a sum that are rounded once, if the device promises that: see
     /// [`PipelineBuilder::fma_rounded_once`](crate::gpu::PipelineBuilder::fma_rounded_once).
     pub fn fma_where_offered(mut self) -> Self {

@@ -207,6 +207,12 @@ impl<'a> PipelineBuilder<'a> {
         }
     }
 
+    /// Lets shaders that opt in by `#ifdef INT64` use 64-bit integers, if the sample has asked for them by
+    /// [`Requirements::int64_where_offered`](crate::gpu::Requirements::int64_where_offered) and the device supports them.
+    pub fn int64(self, gpu: &Gpu) -> Self {
+        if gpu.features.core.shader_int64 == vk::TRUE { self.define("INT64", 1) } else { self }
+    }
+
     /// Promises that rays skip all triangles, or all boxes: requires `rayTraversalPrimitiveCulling`, and only one
     /// of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
