@@ -83,7 +83,7 @@ const PLOTS: [Plot; 3] = [
         values: &["off", "on"],
         frames: 256,
         reference: 2048,
-        errors: &[0.005, 0.01, 0.02, 0.05, 0.1, 0.2],
+        errors: &[0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5],
     },
     Plot {
         chapter: "27_glass",
@@ -93,7 +93,7 @@ const PLOTS: [Plot; 3] = [
         values: &["0", "10", "2"],
         frames: 256,
         reference: 4096,
-        errors: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
+        errors: &[0.05, 0.1, 0.2, 0.5, 1.0, 2.0],
     },
     Plot {
         chapter: "28_depth_of_field",
@@ -103,7 +103,7 @@ const PLOTS: [Plot; 3] = [
         values: &["random", "Sobol"],
         frames: 256,
         reference: 4096,
-        errors: &[0.002, 0.005, 0.01, 0.02, 0.05, 0.1],
+        errors: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
     },
 ];
 
@@ -129,7 +129,7 @@ fn draw() {
             Series { name, points, line: true, dots: true, ..Series::default() }
         });
         let label = format!("time, in frames with {}", names[0]);
-        let ticks = [1.0, 4.0, 16.0, 64.0, 256.0, 512.0];
+        let ticks = [0.5, 1.0, 4.0, 16.0, 64.0, 256.0, 512.0];
         let chart = Chart {
             title: "",
             x: Axis { label: &label, ticks: &ticks, logarithmic: true },

@@ -159,7 +159,7 @@ fn times() {
         fitting(&[0.8, 0.9, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0], &ratios),
     ];
     let [counts, compile_times] = [
-        fitting(&[0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0, 16.0], &stages),
+        fitting(&[0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0], &stages),
         fitting(&[20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4], &compiles),
     ];
     let time = Axis { label: "own pipeline, milliseconds", ticks: &times, logarithmic: true };
