@@ -105,7 +105,7 @@ pub struct Composition {
     pub depth: u32,
     /// Maximum number of times it is scattered.
     pub bounces: u32,
-    /// What moves from frame to frame, if anything does.
+    /// Motion from frame to frame, if there is any.
     pub motion: Option<Motion>,
 }
 

@@ -128,7 +128,7 @@ impl History {
                 (Pixels::new(gpu, size)?, Buffer::new(gpu, "back", bytes, usage)?)
             }
         };
-        // What follows from the camera does not end a history.
+        // A history survives what follows from the camera alone.
         let board = Board { anchor: Zeroable::zeroed(), ..world.board };
         let world =
             World { plane: Zeroable::zeroed(), board, media: [0; 4], first_sample: 0, ..world };

@@ -36,7 +36,7 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
     hit.curvature = curvature;
 #endif
 #ifdef EFFECT_HISTORY
-    // How far a curved shape bends within a pixel is not known here: as far as can be.
+    // The bend of a curved shape within a pixel is unknown here, so it is the largest.
     hit.surface = (SURFACE_SHAPE | gl_PrimitiveID & 0x3fffu) << 16 | (curvature == 0.0 ? 0u : 255u);
 #endif
 #ifdef TOLD_CONES

@@ -1,6 +1,6 @@
 // Taught by 31_history_and_filter.
 //
-// How much a triangle's normals differ from the triangle.
+// The deviation of a triangle's normals from its plane.
 #include "common/scene.glsl"
 
 // The sine of the largest angle between a triangle and the normals of its corners: 0 where the surface is flat. It is

@@ -56,9 +56,9 @@ fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
 /// The largest number of registers spilled by the program with everything: 97 to 103 with Mesa 25.0.7, in
-/// three families. Without history it was 92 to 98; with the normal of a torus as an attribute of the hit it was 99 to 107; with a trace for each kind of
-/// sampled light instead of one in a loop, 176 to 189; without rough metal, whose surface is 21 numbers that are alive
-/// while shadow rays are traced, 38 to 51.
+/// three families. Without history it was 92 to 98; with the normal of a torus as an attribute of the hit it was 99 to
+/// 107; with a trace for each kind of sampled light instead of one in a loop, 176 to 189; without rough metal, whose
+/// surface is 21 numbers that are alive while shadow rays are traced, 38 to 51.
 const SPILLED: u64 = 106;
 
 #[test]
